@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+# Compile options of Rebound's own targets; nothing here reaches an engine that links them.
+
+if(PROJECT_IS_TOP_LEVEL)
+    find_program(REBOUND_CCACHE ccache)
+    if(REBOUND_CCACHE)
+        set(CMAKE_CXX_COMPILER_LAUNCHER ${REBOUND_CCACHE})
+    endif()
+    set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+    set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")
+endif()
+
+function(rebound_target_options target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+    if(NOT MSVC)
+        target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+    endif()
+    if(REBOUND_SANITIZE)
+        target_compile_options(${target} PRIVATE -fsanitize=${REBOUND_SANITIZE} -fno-sanitize-recover=all
+                                                 -fno-omit-frame-pointer)
+        target_link_options(${target} PUBLIC -fsanitize=${REBOUND_SANITIZE})
+    endif()
+endfunction()
