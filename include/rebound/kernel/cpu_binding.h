@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What a CPU kernel is given to run on, and how a backend finds kernels. Plain data: files compiled for different
+// instruction sets share it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rebound::cpu {
+
+enum class BindingKind : uint8_t { none, texture, input, image, output, buffer, constants };
+
+inline constexpr int slotCount = 16;
+inline constexpr int featureCapacity = 4;
+
+// A texture or image holds one plane of 32-bit floats a channel. Each row is followed, and the first one preceded, by
+// padding that reads as zero: lanes may straddle an image's sides.
+inline constexpr int rowPadding = 24;   // at least, behind a row [floats]
+inline constexpr int planeMargin = 64;  // before the first row and behind the last [floats]
+inline constexpr int rowAlignment = 16; // of the distance between rows [floats]
+
+struct Binding {
+    BindingKind kind = BindingKind::none;
+    bool isHalf = false;           // input, output: half floats instead of floats
+    int width = 0, height = 0;     // [texels]
+    int channels = 0;
+    void* data = nullptr;          // texel 0, 0 of channel 0; a buffer's or a constant block's first byte
+    ptrdiff_t pixelStride = 0;     // [bytes]
+    ptrdiff_t rowStride = 0;       // [bytes]
+    ptrdiff_t channelStride = 0;   // [bytes]
+};
+
+// Runs a kernel for the pixels of rows yBegin to yEnd - 1 of a grid that is width pixels wide.
+using RunRows = void (*)(const Binding* slots, int width, int yBegin, int yEnd);
+
+struct KernelInfo {
+    BindingKind kinds[slotCount];            // what the kernel declares in each slot
+    int featureCounts[featureCapacity];      // number of values of each feature; 1: no such feature
+};
+
+// One kernel, compiled for one instruction set.
+struct KernelEntry {
+    const char* name;
+    KernelInfo info;
+    const RunRows* variants;                 // indexed by feature 0 + count 0 * (feature 1 + count 1 * ...)
+};
+
+} // namespace rebound::cpu

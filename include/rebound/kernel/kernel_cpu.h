@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The kernel language as C++. Included inside a namespace of one instruction set, after lanes_headers.h.
+
+#include "rebound/kernel/lanes.h"
+
+inline float halfToFloat(uint16_t h) { return glm::unpackHalf1x16(h); }
+inline uint16_t floatToHalf(float f) { return glm::packHalf1x16(f); }
+
+#include "rebound/kernel/lanes_x86.h"
+#include "rebound/kernel/vectors_cpu.h"
+#include "rebound/kernel/images_cpu.h"
+
+#define RB_FUNCTION inline
+#define RB_TEXTURE_ARGUMENT const Texture&
+
+template <int id>
+struct Slot {};
+
+template <int id, int first, int... rest>
+constexpr int featureValue() {
+    if constexpr (id == 0) return first;
+    else return featureValue<id - 1, rest...>();
+}
+
+// A kernel is a class template over its features' values; ThisKernel names the one that the file defines.
+#define RB_KERNEL(name)                                                                                                \
+    template <int... featureValues>                                                                                    \
+    struct name;                                                                                                       \
+    template <int... featureValues>                                                                                    \
+    using ThisKernel = name<featureValues...>;                                                                         \
+    template <int... featureValues>                                                                                    \
+    struct name {
+#define RB_FEATURE(id, name, count)                                                                                    \
+    static constexpr int name = featureValue<id, featureValues...>();                                                  \
+    static constexpr int featureCount(Slot<id>) { return count; }
+#define RB_BIND(slot, bindingKind, name)                                                                               \
+    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::bindingKind; }                               \
+    void bind(Slot<slot>, const Binding& binding) { name = decltype(name)(binding); }
+#define RB_TEXTURE(slot, name)                                                                                         \
+    Texture name;                                                                                                      \
+    RB_BIND(slot, texture, name)
+#define RB_INPUT(slot, name)                                                                                           \
+    HostImage name;                                                                                                    \
+    RB_BIND(slot, input, name)
+#define RB_IMAGE(slot, format, name)                                                                                   \
+    Texture name;                                                                                                      \
+    RB_BIND(slot, image, name)
+#define RB_OUTPUT(slot, format, name)                                                                                  \
+    HostImage name;                                                                                                    \
+    RB_BIND(slot, output, name)
+#define RB_BUFFER(slot, Type, name)                                                                                    \
+    const Type* name;                                                                                                  \
+    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::buffer; }                                    \
+    void bind(Slot<slot>, const Binding& binding) { name = static_cast<const Type*>(binding.data); }
+#define RB_CONSTANTS(slot, Type, name)                                                                                 \
+    Type name;                                                                                                         \
+    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::constants; }                                 \
+    void bind(Slot<slot>, const Binding& binding) { name = *static_cast<const Type*>(binding.data); }
+#define RB_MAIN(pixel, extent) void run(const Pixel pixel) const {
+#define RB_END_KERNEL                                                                                                  \
+    }                                                                                                                  \
+    }                                                                                                                  \
+    ;

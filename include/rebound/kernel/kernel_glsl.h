@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The kernel language as GLSL: 4.50 for Vulkan, 4.30 or ES 3.10 for OpenGL. The includer writes #version.
+
+#define Real float
+#define Int int
+#define Mask bool
+#define Vec2 vec2
+#define Vec3 vec3
+#define Vec4 vec4
+#define IVec2 ivec2
+#define Pixel ivec2
+#define RB_FUNCTION
+#define RB_TEXTURE_ARGUMENT highp sampler2D
+
+#define RB_KERNEL(name) layout(local_size_x = 8, local_size_y = 8) in;
+
+// A feature's value is a specialization constant in Vulkan, and in OpenGL a macro that the backend defines.
+#ifdef VULKAN
+#define RB_FEATURE(id, name, count) layout(constant_id = id) const int name = 0;
+#else
+#define RB_FEATURE(id, name, count) const int name = REBOUND_FEATURE_##id;
+#endif
+
+#ifdef VULKAN
+#define RB_LAYOUT(slot) set = 0, binding = slot
+#else
+#define RB_LAYOUT(slot) binding = slot
+#endif
+
+#define RB_TEXTURE(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
+#define RB_INPUT(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
+#define RB_IMAGE(slot, format, name) layout(RB_LAYOUT(slot), format) writeonly uniform highp image2D name;
+#define RB_OUTPUT(slot, format, name) layout(RB_LAYOUT(slot), format) writeonly uniform highp image2D name;
+#define RB_BUFFER(slot, Type, name)                                                                                    \
+    layout(RB_LAYOUT(slot), std430) readonly buffer name##Block { Type name[]; };
+#define RB_CONSTANTS(slot, Type, name)                                                                                 \
+    layout(RB_LAYOUT(slot), std140) uniform name##Block { Type name; };
+#define RB_MAIN(pixel, extent)                                                                                         \
+    void main() {                                                                                                      \
+        ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);                                                                 \
+        if (pixel.x >= (extent).x || pixel.y >= (extent).y) return;
+#define RB_END_KERNEL }
+
+precision highp float;
+precision highp int;
+
+float select(bool m, float a, float b) { return m ? a : b; }
+int select(bool m, int a, int b) { return m ? a : b; }
+vec2 select(bool m, vec2 a, vec2 b) { return m ? a : b; }
+vec3 select(bool m, vec3 a, vec3 b) { return m ? a : b; }
+vec4 select(bool m, vec4 a, vec4 b) { return m ? a : b; }
+bool anyLane(bool m) { return m; }
+float inverseSqrt(float x) { return inversesqrt(x); }
+float reciprocal(float x) { return 1.0f / x; }
+bool isFinite(float x) { return (floatBitsToInt(x) & 0x7f800000) != 0x7f800000; }
+
+vec2 pixelCenter(ivec2 p) { return vec2(p) + 0.5f; }
+
+bool isInside(ivec2 p, ivec2 size) { return p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y; }
+bool reaches(highp sampler2D t, ivec2 p, ivec2 o) { return isInside(p + o, textureSize(t, 0)); }
+vec4 fetchAt(highp sampler2D t, ivec2 p) { return isInside(p, textureSize(t, 0)) ? texelFetch(t, p, 0) : vec4(0.0f); }
+vec4 fetch(highp sampler2D t, ivec2 p) { return texelFetch(t, p, 0); }
+vec4 fetchOffset(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, p + o); }
+vec4 fetchMinified(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, 2 * p + o); }
+vec4 fetchMagnified(highp sampler2D t, ivec2 p, ivec2 bias, int shift, ivec2 o) {
+    return fetchAt(t, ((p + bias) >> shift) + o);
+}
+// A macro, since SPIR-V has the image's format in a parameter's type.
+#define store(image, p, v) imageStore(image, p, v)
