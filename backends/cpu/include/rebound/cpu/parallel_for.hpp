@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace rebound::cpu {
+
+// Calls body(i) once for every i in 0 to count - 1, from any threads, and returns when all calls have.
+using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
+
+// Threads that wait for work between calls. Not to be called from within its own body, nor from two threads at once.
+class ThreadPool {
+public:
+    // threads: 1 to 1024, counting the one that calls run(); 0: one a core. Where the system refuses to start as many,
+    // the pool makes do with fewer.
+    explicit ThreadPool(int threads = 0);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    int threadCount() const;
+    void run(int count, const std::function<void(int)>& body);
+
+private:
+    struct State;
+    std::unique_ptr<State> state;
+};
+
+} // namespace rebound::cpu

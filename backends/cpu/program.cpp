@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "program_state.hpp"
+
+#include <chrono>
+#include <cstring>
+
+namespace rebound::cpu {
+namespace {
+
+Image packedImage(void* data, Extent2D extent, int channels, Scalar scalar) {
+    Image image;
+    image.data = data;
+    image.extent = extent;
+    image.channels = channels;
+    image.scalar = scalar;
+    return image;
+}
+
+constexpr ptrdiff_t sizeOf(Scalar s) { return s == Scalar::float16 ? 2 : 4; }
+
+Result<> checkImage(const Resource& r, const Image& image) {
+    const std::string what = "inputs.images: " + r.name;
+    if (!image.data) return invalidArgument(what + " has no data");
+    if (image.extent != r.extent)
+        return invalidArgument(what + " is " + detail::toText(image.extent) + "; " + detail::toText(r.extent) +
+                               " was expected");
+    if (image.channels < 1 || image.channels > 4)
+        return invalidArgument(what + " has " + std::to_string(image.channels) + " channels; 1 to 4 were expected");
+    const ptrdiff_t size = sizeOf(image.scalar);
+    const bool aligned = reinterpret_cast<uintptr_t>(image.data) % size_t(size) == 0 &&
+                         image.pixelStride % size == 0 && image.rowStride % size == 0 && image.channelStride % size == 0;
+    if (!aligned || image.pixelStride == 0 || (image.rowStride == 0 && image.extent.height > 1))
+        return invalidArgument(what + " has strides of " + std::to_string(image.pixelStride) + ", " +
+                               std::to_string(image.rowStride) + " and " + std::to_string(image.channelStride) +
+                               " bytes; multiples of " + std::to_string(size) + ", not zero, were expected");
+    return {};
+}
+
+void describe(Binding& slot, const Image& image) {
+    slot.data = image.data;
+    slot.isHalf = image.scalar == Scalar::float16;
+    slot.channels = image.channels;
+    slot.pixelStride = image.pixelStride;
+    slot.rowStride = image.rowStride;
+    slot.channelStride = image.channelStride;
+}
+
+void clearFloats(float* from, ptrdiff_t count) { std::memset(from, 0, size_t(count) * sizeof(float)); }
+
+// Lanes that straddle an image's sides read the padding, and memory is shared: so it is zeroed by whoever writes.
+void clearMargins(const Binding& image) {
+    const ptrdiff_t plane = image.channelStride / ptrdiff_t(sizeof(float));
+    const ptrdiff_t rows = image.rowStride / ptrdiff_t(sizeof(float)) * image.height;
+    for (int c = 0; c < image.channels; ++c) {
+        float* first = static_cast<float*>(image.data) + c * plane;
+        clearFloats(first - planeMargin, planeMargin);
+        clearFloats(first + rows, planeMargin);
+    }
+}
+
+void clearRowPadding(const Binding& image, int yBegin, int yEnd) {
+    const ptrdiff_t stride = image.rowStride / ptrdiff_t(sizeof(float));
+    const ptrdiff_t plane = image.channelStride / ptrdiff_t(sizeof(float));
+    for (int c = 0; c < image.channels; ++c)
+        for (int y = yBegin; y < yEnd; ++y)
+            clearFloats(static_cast<float*>(image.data) + c * plane + y * stride + image.width, stride - image.width);
+}
+
+void runPass(const CompiledPass& pass, const std::array<Binding, slotCount>& slots,
+             const std::vector<Binding>& resources, const ParallelFor& parallelFor) {
+    for (ResourceIndex r : pass.cleared) clearMargins(resources[size_t(r)]);
+    const int tasks = (pass.grid.height + pass.rowsPerTask - 1) / pass.rowsPerTask;
+    parallelFor(tasks, [&](int task) {
+        const int yBegin = task * pass.rowsPerTask, yEnd = std::min(yBegin + pass.rowsPerTask, pass.grid.height);
+        pass.run(slots.data(), pass.grid.width, yBegin, yEnd);
+        for (ResourceIndex r : pass.cleared) clearRowPadding(resources[size_t(r)], yBegin, yEnd);
+    });
+}
+
+} // namespace
+
+Image interleavedImage(void* data, Extent2D extent, int channels, Scalar scalar) {
+    Image image = packedImage(data, extent, channels, scalar);
+    image.channelStride = sizeOf(scalar);
+    image.pixelStride = image.channelStride * channels;
+    image.rowStride = image.pixelStride * extent.width;
+    return image;
+}
+
+Image planarImage(void* data, Extent2D extent, int channels, Scalar scalar) {
+    Image image = packedImage(data, extent, channels, scalar);
+    image.pixelStride = sizeOf(scalar);
+    image.rowStride = image.pixelStride * extent.width;
+    image.channelStride = image.rowStride * extent.height;
+    return image;
+}
+
+Program::Program(std::unique_ptr<State> s) : state(std::move(s)) {}
+Program::~Program() = default;
+Program::Program(Program&&) noexcept = default;
+Program& Program::operator=(Program&&) noexcept = default;
+
+const std::vector<PassTiming>& Program::timings() const { return state->timings; }
+const Plan& Program::plan() const { return state->plan; }
+MemoryUse Program::memoryUse() const { return state->use; }
+void Program::onPass(std::function<void(int)> callback) { state->passCallback = std::move(callback); }
+
+Result<> Program::record(const FrameInputs<Image>& inputs) {
+    auto resolved = detail::resolveInputs(state->plan, inputs);
+    if (!resolved) return resolved.error();
+    for (size_t i = 0; i < state->plan.resources.size(); ++i)
+        if (const Image* image = resolved->images[i])
+            if (auto valid = checkImage(state->plan.resources[i], *image); !valid) return valid.error();
+
+    state->timings.clear();
+    for (size_t i = 0; i < state->passes.size(); ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        const CompiledPass& pass = state->passes[i];
+        std::array<Binding, slotCount> slots = pass.slots;
+        for (const PassBinding& b : pass.external) {
+            Binding& slot = slots[size_t(b.slot)];
+            if (const Image* image = resolved->images[size_t(b.resource)]) describe(slot, *image);
+            else slot.data = const_cast<void*>(resolved->constants[size_t(b.resource)]);
+        }
+        runPass(pass, slots, state->resources, state->device->parallelFor);
+        if (state->device->timings) {
+            const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+            state->timings.push_back({state->plan.passes[i].label, elapsed.count()});
+        }
+        if (state->passCallback) state->passCallback(int(i));
+    }
+    return {};
+}
+
+Result<std::vector<float>> Program::readTransient(std::string_view name) const {
+    const int index = state->plan.find(name);
+    if (index < 0 || state->plan.resources[size_t(index)].kind != ResourceKind::transient)
+        return Error{ErrorCode::notFound, "the plan has no transient named " + std::string(name)};
+    const Binding& b = state->resources[size_t(index)];
+    std::vector<float> texels(size_t(b.width) * size_t(b.height) * size_t(b.channels));
+    size_t next = 0;
+    for (int y = 0; y < b.height; ++y)
+        for (int x = 0; x < b.width; ++x)
+            for (int c = 0; c < b.channels; ++c)
+                std::memcpy(&texels[next++],
+                            static_cast<const char*>(b.data) + c * b.channelStride + y * b.rowStride + x * b.pixelStride,
+                            sizeof(float));
+    return texels;
+}
+
+} // namespace rebound::cpu
