@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Four texels become one. The coarse texel keeps all their light and area; its normal and the place where it receives
+// are those of one of them, never a mean.                     [RR-7162, sec. 4; Soler and Hoel, eq. 5]. Kernel language.
+#ifndef REBOUND_REDUCTION_H
+#define REBOUND_REDUCTION_H
+
+// How far two texels lie on one surface, 0 to 1: Lorentzians of 1 - cos of the angle between their normals, of the
+// voter's distance from the candidate's tangent plane in texels, and of the relative difference in depth.
+//   texel   width of a texel at z = 1, or, orthographic, everywhere                         [m]
+RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition, float texel,
+                             int projection)
+{
+    Real inverseZ = reciprocal(max(candidate.z, Real(1e-30f)));
+    Real angle = (Real(1.0f) - dot(candidate.normal, voter.normal)) * 2.0f;
+    Real width = projection == orthographicProjection ? Real(texel) : candidate.z * texel;
+    Real plane = dot(candidate.normal, voterPosition - position) * reciprocal(max(width, Real(1e-30f))) * 0.5f;
+    Real depth = (voter.z - candidate.z) * inverseZ * 20.0f;
+    return reciprocal((Real(1.0f) + angle * angle) * (Real(1.0f) + plane * plane) * (Real(1.0f) + depth * depth));
+}
+
+// The coarse texel that stands for four fine ones; empty texels do not count.
+//   fine          in order (0,0), (1,0), (0,1), (1,1)
+//   coordinate    of the coarse texel's centre, full-resolution pixels
+//   fineScale     full-resolution pixels a fine texel
+RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Vec2 coordinate, float fineScale,
+                                  int reduction, int projection)
+{
+    Vec3 position[4];
+    Real area = Real(0.0f);
+    Real lowZ = Real(1e30f);
+    Real highZ = Real(0.0f);
+    LevelTexel coarse;
+    coarse.senderZ = Real(0.0f);
+    coarse.radiance = Vec3(0.0f);
+    RB_UNROLL
+    for (int i = 0; i < 4; ++i) {
+        vec2 toFine = vec2(float(i & 1) - 0.5f, float(i >> 1) - 0.5f) * fineScale;
+        Vec2 fineCoordinate = Vec2(coordinate.x + toFine.x, coordinate.y + toFine.y);
+        position[i] = viewPosition(viewRay(camera, fineCoordinate), fine[i].surface.z, projection);
+        Real a = fine[i].surface.areaOverPi;
+        area += a;
+        coarse.senderZ += fine[i].senderZ * a;
+        coarse.radiance += fine[i].radiance * a;
+        lowZ = select(a > 0.0f, min(lowZ, fine[i].surface.z), lowZ);
+        highZ = max(highZ, fine[i].surface.z);
+    }
+    Real inverseArea = reciprocal(max(area, Real(1e-36f)));
+    coarse.senderZ *= inverseArea;
+    coarse.radiance = coarse.radiance * inverseArea;
+
+    float texel = fineScale * max(abs(camera.ray.x), abs(camera.ray.y));
+    Surface chosen = fine[0].surface;
+    Vec3 chosenPosition = position[0];
+    Real bestScore = Real(0.0f);
+    RB_UNROLL
+    for (int i = 0; i < 4; ++i) {
+        Surface s = fine[i].surface;
+        Real score = reciprocal(max(s.z, Real(1e-30f)));
+        if (reduction == reduceVoting) {
+            // Itself and its two neighbours along the sides, each as heavy as its area.
+            Surface right = fine[i ^ 1].surface;
+            Surface below = fine[i ^ 2].surface;
+            score = s.areaOverPi +
+                    right.areaOverPi * resemblance(s, position[i], right, position[i ^ 1], texel, projection) +
+                    below.areaOverPi * resemblance(s, position[i], below, position[i ^ 2], texel, projection);
+        }
+        score = select(s.areaOverPi > 0.0f, score, Real(0.0f));
+        Mask better = score > bestScore;
+        chosen.normal = select(better, s.normal, chosen.normal);
+        chosen.z = select(better, s.z, chosen.z);
+        chosenPosition = select(better, position[i], chosenPosition);
+        bestScore = select(better, score, bestScore);
+    }
+
+    // Where the chosen surface's tangent plane meets the coarse texel's own ray, but within the four depths.
+    Vec2 ray = viewRay(camera, coordinate);
+    Real along = chosen.normal.z;
+    Real offset = dot(chosen.normal, chosenPosition);
+    Real across = chosen.normal.x * ray.x + chosen.normal.y * ray.y;
+    if (projection == orthographicProjection) offset -= across;
+    else along += across;
+    Real planeZ = offset * reciprocal(along);
+    // A plane seen edge-on meets the ray anywhere.
+    Real z = select(along < -1e-4f, min(max(planeZ, lowZ), highZ), chosen.z);
+    Mask filled = area > 0.0f;
+    coarse.surface.normal = select(filled, chosen.normal, Vec3(0.0f));
+    coarse.surface.z = select(filled, z, Real(0.0f));
+    coarse.surface.areaOverPi = area;
+    return coarse;
+}
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Joint bilateral upsampling of a level to a finer image.                     [RR-7162, sec. 3.2]. Kernel language.
+#ifndef REBOUND_UPSAMPLE_H
+#define REBOUND_UPSAMPLE_H
+
+// The coarse image's value at a receiver: bilinear over four texels, each weighed by how far its surface agrees.
+//   receiver         of the pixel
+//   position         of the receiver, view space                                            [m]
+//   shift            log2 of the coarse texels' size in pixels; 0: the images are of one size, and nothing is filtered
+//   coarseScale      full-resolution pixels a coarse texel
+RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUMENT coarseLight, Pixel pixel,
+                           Surface receiver, Vec3 position, CameraConstants camera, int shift, float coarseScale,
+                           int projection)
+{
+    if (shift == 0) {
+        Vec4 same = fetch(coarseLight, pixel);
+        return Vec3(same.x, same.y, same.z);
+    }
+    int halfTexel = 1 << (shift - 1);
+    float toCoarse = 1.0f / float(1 << shift);
+    Vec2 at = pixelCenter(pixel) * toCoarse - Vec2(0.5f);
+    Vec2 base = Vec2(floor(at.x), floor(at.y));
+    Vec2 fraction = at - base;
+    Real inverseWidth = inverseTexelWidth(receiver.z, coarseScale * max(abs(camera.ray.x), abs(camera.ray.y)), projection);
+    // A coarse texel's distance from the receiver's plane is n.p - n.x with p = (ray z, z): the parts of n.p along the
+    // two columns and rows of texels serve all four.
+    Vec3 n = receiver.normal;
+    Real own = dot(n, position);
+    Vec2 nearRay = viewRay(camera, (base + Vec2(0.5f)) * coarseScale);
+    Vec2 step = Vec2(Real(coarseScale * camera.ray.x), Real(coarseScale * camera.ray.y));
+    Vec3 sum = Vec3(0.0f);
+    Real total = Real(0.0f);
+    RB_UNROLL
+    for (int tap = 0; tap < 4; ++tap) {
+        ivec2 offset = ivec2(tap & 1, tap >> 1);
+        Vec4 surface = fetchMagnified(coarseSurfaces, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
+        Vec4 light = fetchMagnified(coarseLight, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
+        Real across = n.x * (nearRay.x + step.x * float(offset.x)) + n.y * (nearRay.y + step.y * float(offset.y));
+        Real distance = projection == orthographicProjection ? across + n.z * surface.w - own
+                                                             : (across + n.z) * surface.w - own;
+        Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
+        Real cosine = max(dot(n, scaled), Real(0.0f));
+        Real cosine2 = cosine * cosine * reciprocal(max(dot(scaled, scaled), Real(1.2e-38f)));
+        Real agreement = bilateralWeight(distance * inverseWidth, cosine2);
+        Real bilinear = (offset.x == 1 ? fraction.x : Real(1.0f) - fraction.x) *
+                        (offset.y == 1 ? fraction.y : Real(1.0f) - fraction.y);
+        // The last term decides only where no texel agrees: then those count that face alike. Such pixels, a few in a
+        // thousand, would else be black, and they are bright more often than not.
+        Real likeness = select(surface.w > 0.0f, cosine2 * 1e-5f + 1e-8f, Real(0.0f));
+        Real weight = bilinear * agreement + (bilinear + 0.02f) * likeness;
+        sum += Vec3(light.x, light.y, light.z) * weight;
+        total += weight;
+    }
+    return sum * reciprocal(max(total, Real(1e-20f)));
+}
+
+#endif
