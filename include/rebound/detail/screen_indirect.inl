@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// Definitions of screen_indirect.hpp.
+
+#include "rebound/math/rings.hpp"
+
+#include <array>
+
+namespace rebound {
+namespace detail {
+
+#include "rebound/techniques/screen_indirect_constants.h"
+
+inline int startShift(StartResolution s) {
+    return s == StartResolution::full ? 0 : s == StartResolution::half ? 1 : 2;
+}
+
+// Size of an image reduced 2^shift times; every pixel stays inside some texel.
+inline Extent2D reducedExtent(Extent2D e, int shift) {
+    const int round = (1 << shift) - 1;
+    return {(e.width + round) >> shift, (e.height + round) >> shift};
+}
+
+template <class T>
+std::string rangeMessage(const char* setting, T value, T low, T high) {
+    return std::string("settings.") + setting + " is " + std::to_string(value) + "; " + std::to_string(low) + " to " +
+           std::to_string(high) + " was expected";
+}
+
+inline Result<> validate(const ScreenIndirectSettings& s) {
+    if (!isValidExtent(s.resolution))
+        return invalidArgument("settings.resolution is " + toText(s.resolution) + "; 1x1 to " +
+                               toText({maximumExtent, maximumExtent}) + " was expected");
+    if (s.levels < 1 || s.levels > 8) return invalidArgument(rangeMessage("levels", s.levels, 1, 8));
+    if (s.samplesPerLevel < 4 || s.samplesPerLevel > 256)
+        return invalidArgument(rangeMessage("samplesPerLevel", s.samplesPerLevel, 4, 256));
+    if (!(s.ringRadius >= 1.0f && s.ringRadius <= 1024.0f))
+        return invalidArgument(rangeMessage("ringRadius", s.ringRadius, 1.0f, 1024.0f));
+    if (!(s.minimumCosine >= 0.001f && s.minimumCosine <= 1.0f))
+        return invalidArgument(rangeMessage("minimumCosine", s.minimumCosine, 0.001f, 1.0f));
+    if (s.onlyLevel && (*s.onlyLevel < 0 || *s.onlyLevel >= s.levels))
+        return invalidArgument(rangeMessage("onlyLevel", *s.onlyLevel, 0, s.levels - 1));
+    if (!s.writeIndirect && !s.compose)
+        return invalidArgument("settings.writeIndirect and settings.compose are both false; one output was expected");
+    return {};
+}
+
+// Builds the plan pass by pass, in the order of RR-7162's pipeline (fig. 3).
+class ScreenIndirectPlanner {
+public:
+    explicit ScreenIndirectPlanner(const ScreenIndirectSettings& s) : settings(s) {}
+
+    Plan build() {
+        plan.technique = "screen_indirect";
+        addHostImages();
+        camera = plan.add({"camera", ResourceKind::frameConstants, {}, 1, {}, {}, sizeof(CameraConstants)});
+        addReductions();
+        addGathers();
+        if (settings.smooth) addSmooth();
+        addOutputs();
+        return std::move(plan);
+    }
+
+private:
+    struct Level {
+        int shift = 0; // full-resolution pixels a texel: 2^shift
+        Extent2D extent;
+        ResourceIndex surface = -1, light = -1;
+    };
+
+    ScreenIndirectSettings settings;
+    Plan plan;
+    ResourceIndex camera = -1, depth = -1, normal = -1, radiance = -1;
+    std::vector<Level> levels;   // from the start resolution on
+    ResourceIndex result = -1;   // indirect light at the start resolution
+
+    int projection() const {
+        return settings.conventions.projection == Projection::orthographic ? orthographicProjection
+                                                                           : perspectiveProjection;
+    }
+    // Level 0's shift counts from full resolution: a level's first and last one that take part.
+    int coarsest() const { return settings.onlyLevel.value_or(settings.levels - 1); }
+    int finestGathered() const { return settings.onlyLevel.value_or(0); }
+
+    ResourceIndex addImage(std::string name, ResourceKind kind, Format format, int channels, Extent2D extent) {
+        return plan.add({std::move(name), kind, format, channels, extent, {}, 0});
+    }
+    template <class T>
+    ResourceIndex addConstants(const std::string& label, const T& constants) {
+        return plan.add(bufferResource(label + " constants", std::vector<T>{constants}));
+    }
+    static std::string numbered(const char* what, int level) { return what + std::to_string(level); }
+
+    void addHostImages() {
+        const Extent2D full = settings.resolution;
+        depth = addImage("depth", ResourceKind::input, Format::r32f, 1, full);
+        normal = addImage("normal", ResourceKind::input, Format::rgba16f, 3, full);
+        radiance = addImage("radiance", ResourceKind::input, Format::rgba16f, 3, full);
+    }
+
+    Level addLevel(const std::string& suffix, int shift) {
+        Level level{shift, reducedExtent(settings.resolution, shift), -1, -1};
+        level.surface = addImage("surface " + suffix, ResourceKind::transient, Format::rgba32f, 4, level.extent);
+        level.light = addImage("light " + suffix, ResourceKind::transient, Format::rgba16f, 4, level.extent);
+        return level;
+    }
+
+    void addReductions() {
+        const int start = startShift(settings.start);
+        const bool half = start > 0;
+        Level level = addLevel(start == 2 ? "at half resolution" : "0", half ? 1 : 0);
+        addPrepare(level, half);
+        for (int shift = level.shift + 1; shift <= start + coarsest(); ++shift) {
+            if (shift > start) levels.push_back(level);
+            const std::string suffix = std::to_string(shift - start);
+            const Level coarser = addLevel(suffix, shift);
+            addReduce("reduce to level " + suffix, level, coarser);
+            level = coarser;
+        }
+        levels.push_back(level);
+    }
+
+    int reduction() const { return settings.reduction == Reduction::voting ? reduceVoting : reduceNearest; }
+
+    void addPrepare(const Level& to, bool half) {
+        const ReduceConstants k{{to.extent.width, to.extent.height, 0, 0}, {1.0f, settings.minimumCosine, 0, 0}};
+        Pass pass{"prepare", "screen_indirect/prepare", {projection()}, {}, to.extent};
+        if (half) {
+            pass.kernel = "screen_indirect/prepare_half";
+            pass.features = {projection(), reduction()};
+        }
+        pass.bindings = {{0, depth}, {1, normal}, {2, radiance}, {3, to.surface, Access::write},
+                         {4, to.light, Access::write}, {5, camera}, {6, addConstants("prepare", k)}};
+        plan.passes.push_back(pass);
+    }
+
+    void addReduce(const std::string& label, const Level& from, const Level& to) {
+        const ReduceConstants k{{to.extent.width, to.extent.height, 0, 0},
+                                {float(1 << from.shift), settings.minimumCosine, 0, 0}};
+        const ResourceIndex constants = addConstants(label, k);
+        plan.passes.push_back({label,
+                               "screen_indirect/reduce",
+                               {projection(), reduction()},
+                               {{0, from.surface}, {1, from.light}, {2, to.surface, Access::write},
+                                {3, to.light, Access::write}, {4, camera}, {5, constants}},
+                               to.extent});
+    }
+
+    ResourceIndex addGather(int k) {
+        const Level& level = levels[size_t(k)];
+        const std::string label = numbered("gather level ", k);
+        std::vector<RingSample> samples;
+        const bool open = settings.coverScreen && k == settings.levels - 1;
+        for (const RingTexel& t :
+             ringPattern({settings.ringRadius, k == 0, open}, settings.samplesPerLevel, level.extent))
+            samples.push_back({t.offset, t.weight, 0.0f});
+        const int count = int(samples.size());
+        if (samples.empty()) samples.push_back({{0, 0}, 0.0f, 0.0f});
+        const ResourceIndex ring = plan.add(bufferResource(label + " ring", samples));
+        const GatherConstants constants{{level.extent.width, level.extent.height, count, 0},
+                                        {float(1 << level.shift), 0, 0, 0}};
+        const ResourceIndex gathered =
+            addImage(numbered("gathered ", k), ResourceKind::transient, Format::rgba16f, 3, level.extent);
+        plan.passes.push_back({label,
+                               "screen_indirect/gather",
+                               {projection(), settings.formFactor == FormFactor::pointToPoint ? pointFormFactor
+                                                                                              : discFormFactor},
+                               {{0, level.surface}, {1, level.light}, {2, gathered, Access::write}, {3, ring},
+                                {4, camera}, {5, addConstants(label, constants)}},
+                               level.extent});
+        return gathered;
+    }
+
+    UpsampleConstants upsampleConstants(Extent2D extent, int shift, int coarseShift) const {
+        return {{extent.width, extent.height, coarseShift - shift, 0},
+                {float(1 << shift), float(1 << coarseShift), 0, 0}};
+    }
+
+    // combined = gathered + upsampled coarser level, from the coarsest on; or just the latter where one level is shown.
+    void addGathers() {
+        result = addGather(coarsest());
+        for (int k = coarsest() - 1; k >= 0; --k) {
+            const Level& level = levels[size_t(k)];
+            const Level& coarser = levels[size_t(k) + 1];
+            const bool gathers = k >= finestGathered();
+            const ResourceIndex gathered = gathers ? addGather(k) : -1;
+            const std::string label = numbered("combine level ", k);
+            const ResourceIndex combined =
+                addImage(numbered("combined ", k), ResourceKind::transient, Format::rgba16f, 3, level.extent);
+            const ResourceIndex constants =
+                addConstants(label, upsampleConstants(level.extent, level.shift, coarser.shift));
+            Pass pass{label, gathers ? "screen_indirect/combine" : "screen_indirect/carry", {projection()}, {}, level.extent};
+            pass.bindings = {{0, level.surface}, {1, coarser.surface}, {2, result}, {3, combined, Access::write},
+                             {4, camera}, {5, constants}};
+            if (gathers) pass.bindings.push_back({6, gathered});
+            plan.passes.push_back(pass);
+            result = combined;
+        }
+    }
+
+    // Takes off the last of the blotches that a fixed sample pattern leaves.
+    void addSmooth() {
+        const Level& start = levels[0];
+        const ResourceIndex smoothed =
+            addImage("smoothed", ResourceKind::transient, Format::rgba16f, 3, start.extent);
+        const ResourceIndex constants =
+            addConstants("smooth", upsampleConstants(start.extent, start.shift, start.shift));
+        plan.passes.push_back({"smooth",
+                               "screen_indirect/smooth",
+                               {projection()},
+                               {{0, start.surface}, {1, result}, {2, smoothed, Access::write}, {3, camera}, {4, constants}},
+                               start.extent});
+        result = smoothed;
+    }
+
+    void addOutputs() {
+        const Extent2D full = settings.resolution;
+        ResourceIndex indirect = -1, composed = -1, albedo = -1, lit = -1;
+        if (settings.writeIndirect) indirect = addImage("indirect", ResourceKind::output, Format::rgba16f, 3, full);
+        if (settings.compose) {
+            albedo = addImage("albedo", ResourceKind::input, Format::rgba16f, 3, full);
+            lit = addImage("lit", ResourceKind::input, Format::rgba16f, 3, full);
+            composed = addImage("composed", ResourceKind::output, Format::rgba16f, 3, full);
+        }
+        const Level& start = levels[0];
+        const ResourceIndex constants = addConstants("upsample", upsampleConstants(full, 0, start.shift));
+        Pass upsample{"upsample", "screen_indirect/upsample", {projection()}, {}, full};
+        upsample.bindings = {{0, depth}, {1, normal}, {2, start.surface}, {3, result}, {4, camera}, {5, constants}};
+        if (settings.writeIndirect) {
+            upsample.bindings.push_back({6, indirect, Access::write});
+        } else {
+            upsample.label = "upsample and compose";
+            upsample.kernel = "screen_indirect/upsample_compose";
+            upsample.bindings.insert(upsample.bindings.end(), {{6, albedo}, {7, lit}, {8, composed, Access::write}});
+        }
+        plan.passes.push_back(upsample);
+        if (!settings.writeIndirect || !settings.compose) return;
+        const ResourceIndex k = addConstants("compose", upsampleConstants(full, 0, 0));
+        plan.passes.push_back({"compose",
+                               "screen_indirect/compose",
+                               {},
+                               {{0, indirect}, {1, albedo}, {2, lit}, {3, composed, Access::write}, {4, k}},
+                               full});
+    }
+};
+
+struct ScreenIndirectPreset {
+    std::string_view name;
+    StartResolution start;
+    int samples;
+    int levels;
+};
+inline constexpr std::array<ScreenIndirectPreset, 8> screenIndirectPresets{{
+    {"quarter-64", StartResolution::quarter, 64, 4},
+    {"quarter-256", StartResolution::quarter, 256, 4},
+    {"half-64", StartResolution::half, 64, 4},
+    {"half-256", StartResolution::half, 256, 4},
+    {"quarter-64-5", StartResolution::quarter, 64, 5},
+    {"quarter-256-5", StartResolution::quarter, 256, 5},
+    {"half-64-5", StartResolution::half, 64, 5},
+    {"half-256-5", StartResolution::half, 256, 5},
+}};
+inline constexpr auto screenIndirectNames = [] {
+    std::array<std::string_view, screenIndirectPresets.size()> names;
+    for (size_t i = 0; i < names.size(); ++i) names[i] = screenIndirectPresets[i].name;
+    return names;
+}();
+
+} // namespace detail
+
+inline std::span<const std::string_view> screenIndirectPresetNames() { return detail::screenIndirectNames; }
+
+inline Result<ScreenIndirectSettings> screenIndirectPreset(std::string_view name, Extent2D resolution) {
+    std::string known;
+    for (const detail::ScreenIndirectPreset& preset : detail::screenIndirectPresets) {
+        if (preset.name == name) {
+            ScreenIndirectSettings s;
+            s.resolution = resolution;
+            s.start = preset.start;
+            s.samplesPerLevel = preset.samples;
+            s.levels = preset.levels;
+            s.ringRadius = std::clamp(40.0f * float(resolution.height) / 720.0f, 1.0f, 1024.0f);
+            return s;
+        }
+        known += (known.empty() ? "" : ", ") + std::string(preset.name);
+    }
+    return Error{ErrorCode::notFound, "preset is \"" + std::string(name) + "\"; one of " + known + " was expected"};
+}
+
+inline float coveringRingRadius(const ScreenIndirectSettings& s) {
+    const Extent2D e = detail::reducedExtent(s.resolution, detail::startShift(s.start));
+    const float diagonal = std::hypot(float(e.width), float(e.height));
+    return std::clamp(std::ceil(diagonal / float(1 << (std::max(s.levels, 1) - 1))), 1.0f, 1024.0f);
+}
+
+inline Result<Plan> planScreenIndirect(const ScreenIndirectSettings& settings) {
+    if (auto valid = detail::validate(settings); !valid) return valid.error();
+    return detail::ScreenIndirectPlanner(settings).build();
+}
+
+} // namespace rebound

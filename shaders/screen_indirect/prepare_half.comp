@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/kernel/kernel.h"
+#include "rebound/techniques/camera_constants.h"
+#include "rebound/techniques/screen_indirect_constants.h"
+#include "rebound/math/packing.h"
+#include "rebound/math/view_position.h"
+#include "rebound/math/gbuffer.h"
+#include "rebound/math/reduction.h"
+
+// The host's G-buffer as a level's texels, one for each four pixels.
+RB_KERNEL(PrepareHalf)
+RB_FEATURE(0, projection, 2)
+RB_FEATURE(1, reduction, 2)
+RB_INPUT(0, depth)
+RB_INPUT(1, normal)
+RB_INPUT(2, radiance)                        // diffuse radiance that surfaces send out [W m^-2 sr^-1]
+RB_IMAGE(3, rgba32f, surfaceOut)
+RB_IMAGE(4, rgba16f, lightOut)
+RB_CONSTANTS(5, CameraConstants, camera)
+RB_CONSTANTS(6, ReduceConstants, k)
+RB_MAIN(pixel, k.extent)
+    Vec2 coordinate = pixelCenter(pixel) * 2.0f;
+    LevelTexel fine[4];
+    RB_UNROLL
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        Vec2 fineCoordinate = Vec2(coordinate.x + (float(offset.x) - 0.5f), coordinate.y + (float(offset.y) - 0.5f));
+        fine[i] = texelOf(camera, fineCoordinate, fetchMinified(depth, pixel, offset),
+                          fetchMinified(normal, pixel, offset), fetchMinified(radiance, pixel, offset), k.scale.y,
+                          projection);
+    }
+    LevelTexel coarse = reduceFour(fine, camera, coordinate, 1.0f, reduction, projection);
+    store(surfaceOut, pixel, packSurface(coarse));
+    store(lightOut, pixel, packLight(coarse));
+RB_END_KERNEL

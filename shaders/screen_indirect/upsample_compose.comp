@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/kernel/kernel.h"
+#include "rebound/techniques/camera_constants.h"
+#include "rebound/techniques/screen_indirect_constants.h"
+#include "rebound/math/packing.h"
+#include "rebound/math/view_position.h"
+#include "rebound/math/gbuffer.h"
+#include "rebound/math/bilateral.h"
+#include "rebound/math/upsample.h"
+#include "rebound/math/composition.h"
+
+// Indirect light at full resolution, straight into the picture.
+RB_KERNEL(UpsampleCompose)
+RB_FEATURE(0, projection, 2)
+RB_INPUT(0, depth)
+RB_INPUT(1, normal)
+RB_TEXTURE(2, startSurfaces)
+RB_TEXTURE(3, startIndirect)
+RB_CONSTANTS(4, CameraConstants, camera)
+RB_CONSTANTS(5, UpsampleConstants, k)
+RB_INPUT(6, albedo)
+RB_INPUT(7, lit)
+RB_OUTPUT(8, rgba16f, composed)
+RB_MAIN(pixel, k.extent)
+    Vec4 n = fetch(normal, pixel);
+    Vec2 coordinate = pixelCenter(pixel);
+    Surface receiver = surfaceOf(camera, coordinate, fetch(depth, pixel).x, Vec3(n.x, n.y, n.z), 1.0f, projection);
+    Vec3 position = viewPosition(viewRay(camera, coordinate), receiver.z, projection);
+    Vec3 light = upsampled(startSurfaces, startIndirect, pixel, receiver, position, camera, k.extent.z, k.scale.y,
+                           projection);
+    light = select(receiver.z > 0.0f, light, Vec3(0.0f));
+    Vec4 a = fetch(albedo, pixel);
+    Vec4 l = fetch(lit, pixel);
+    Vec3 sum = composition(Vec3(l.x, l.y, l.z), Vec3(a.x, a.y, a.z), light);
+    store(composed, pixel, Vec4(sum.x, sum.y, sum.z, Real(1.0f)));
+RB_END_KERNEL
