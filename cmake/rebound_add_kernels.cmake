@@ -9,6 +9,8 @@
 
 # The global property REBOUND_INCLUDE_FOLDER says where rebound/kernel/kernel.h lies.
 
+set(REBOUND_ISAS "" CACHE STRING "Instruction sets to compile CPU kernels for; empty: all of the processor family")
+
 # Instruction sets of CPU kernels (isas), the compiler options of all and of each. NaN matters to kernels, so no
 # -ffast-math.
 macro(rebound_kernel_options)
@@ -25,6 +27,14 @@ macro(rebound_kernel_options)
         set(isas scalar baseline)
     else()
         set(isas scalar)
+    endif()
+    foreach(isa ${REBOUND_ISAS})
+        if(NOT isa IN_LIST isas)
+            message(FATAL_ERROR "REBOUND_ISAS holds ${isa}; some of ${isas} were expected")
+        endif()
+    endforeach()
+    if(REBOUND_ISAS)
+        set(isas ${REBOUND_ISAS})
     endif()
 endmacro()
 
@@ -51,7 +61,9 @@ endfunction()
 function(rebound_add_cpu_kernels target table_function folder kernels)
     rebound_kernel_options()
     find_package(xsimd REQUIRED)
-    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:xsimd>)
+    # Headers alone: Debian's target would have every program link xtl.
+    get_target_property(xsimd_include xsimd INTERFACE_INCLUDE_DIRECTORIES)
+    target_include_directories(${target} SYSTEM PRIVATE ${xsimd_include})
     set(tables "")
     set(declarations "")
     foreach(isa ${isas})

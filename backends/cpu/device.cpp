@@ -119,6 +119,11 @@ Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const Kerne
         if (binding.access == Access::write && r.extent != pass.grid)
             return invalidArgument("plan.passes: " + pass.label + " writes " + r.name +
                                    ", whose size is not that of the pass's grid");
+        if (r.size < kernel.info.sizes[binding.slot])
+            return invalidArgument("plan.passes: " + pass.label + " binds " + r.name + ", which has " +
+                                   std::to_string(r.size) + " bytes, to slot " + std::to_string(binding.slot) + " of " +
+                                   kernel.name + ", which takes " +
+                                   std::to_string(kernel.info.sizes[binding.slot]));
         compiled.slots[size_t(binding.slot)] = resources[size_t(binding.resource)];
         compiled.slots[size_t(binding.slot)].kind = kind;
         bound[binding.slot] = true;
@@ -163,7 +168,9 @@ Result<Device> Device::create(const DeviceOptions& options) {
 Isa Device::isa() const { return shared->isa; }
 int Device::threads() const { return shared->pool ? shared->pool->threadCount() : 0; }
 
-MemoryUse Device::memoryUse(const Plan& plan) const { return planMemory(plan).use; }
+MemoryUse Device::memoryUse(const Plan& plan) const {
+    return validate(plan) ? planMemory(plan).use : MemoryUse{};
+}
 
 Result<Program> Device::compile(const Plan& plan) const {
     if (auto valid = validate(plan); !valid) return valid.error();

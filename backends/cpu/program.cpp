@@ -137,6 +137,8 @@ Result<std::vector<float>> Program::readTransient(std::string_view name) const {
     if (index < 0 || state->plan.resources[size_t(index)].kind != ResourceKind::transient)
         return Error{ErrorCode::notFound, "the plan has no transient named " + std::string(name)};
     const Binding& b = state->resources[size_t(index)];
+    if (lifetimes(state->plan)[size_t(index)].last < 0)
+        return Error{ErrorCode::notFound, "no pass of the plan uses the transient " + std::string(name)};
     std::vector<float> texels(size_t(b.width) * size_t(b.height) * size_t(b.channels));
     size_t next = 0;
     for (int y = 0; y < b.height; ++y)

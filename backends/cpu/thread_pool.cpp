@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace rebound::cpu {
@@ -18,16 +20,23 @@ struct ThreadPool::State {
     const std::function<void(int)>* body = nullptr;
     int count = 0;
     std::atomic<int> next{0};
-    int generation = 0; // counts calls of run()
-    int busy = 0;       // threads that have not finished the current generation
+    unsigned generation = 0;     // counts calls of run(), modulo its range
+    int busy = 0;                // threads that have not finished the current generation
+    std::exception_ptr thrown;   // the first that a body threw in the current generation
     bool stopping = false;
 
     void drain() {
-        for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) (*body)(i);
+        try {
+            for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) (*body)(i);
+        } catch (...) {
+            next = count;
+            std::lock_guard lock(mutex);
+            if (!thrown) thrown = std::current_exception();
+        }
     }
 
     void workLoop() {
-        int seen = 0;
+        unsigned seen = 0;
         std::unique_lock lock(mutex);
         for (;;) {
             work.wait(lock, [&] { return stopping || generation != seen; });
@@ -71,6 +80,7 @@ void ThreadPool::run(int count, const std::function<void(int)>& body) {
         std::lock_guard lock(state->mutex);
         state->body = &body;
         state->count = count;
+        state->thrown = nullptr;
         state->next = 0;
         state->busy = int(state->threads.size());
         ++state->generation;
@@ -79,6 +89,7 @@ void ThreadPool::run(int count, const std::function<void(int)>& body) {
     state->drain();
     std::unique_lock lock(state->mutex);
     state->done.wait(lock, [&] { return state->busy == 0; });
+    if (state->thrown) std::rethrow_exception(std::exchange(state->thrown, nullptr));
 }
 
 } // namespace rebound::cpu

@@ -57,6 +57,8 @@ Result<ResolvedInputs<Image>> resolveInputs(const Plan& plan, const FrameInputs<
                                          plan.resources[size_t(i)].kind == ResourceKind::output);
         if (!external)
             return invalidArgument("inputs.images: the plan has no input or output named " + std::string(named.name));
+        if (resolved.images[size_t(i)])
+            return invalidArgument("inputs.images: " + std::string(named.name) + " is given twice");
         resolved.images[size_t(i)] = &named.image;
     }
     for (const NamedConstants& named : inputs.constants) {
@@ -67,6 +69,8 @@ Result<ResolvedInputs<Image>> resolveInputs(const Plan& plan, const FrameInputs<
             return invalidArgument("inputs.constants: " + std::string(named.name) + " has " +
                                    std::to_string(named.data.size()) + " bytes; " +
                                    std::to_string(plan.resources[size_t(i)].size) + " were expected");
+        if (resolved.constants[size_t(i)])
+            return invalidArgument("inputs.constants: " + std::string(named.name) + " is given twice");
         resolved.constants[size_t(i)] = named.data.data();
     }
     for (size_t i = 0; i < plan.resources.size(); ++i) {

@@ -90,7 +90,7 @@ Resource bufferResource(std::string name, const std::vector<T>& elements) {
     return r;
 }
 
-// First and last pass that use a resource; first > last where none does.
+// First and last pass that use a resource; first > last where none does. Of a valid plan.
 struct Lifetime {
     int first = 0;
     int last = -1;
@@ -154,24 +154,29 @@ struct MemoryUse {
     size_t total() const { return transient + buffers; }
 };
 
+// Checks what every device relies on: names and labels unique, bindings in range, each transient and output written
+// before it is read, never read and written by one pass, extents within 1 to maximumExtent, at most 16 slots and 4
+// features.
+Result<> validate(const Plan&);
+
+// Of transients in memoryUse() [bytes].
+inline constexpr size_t transientAlignment = 256;
+
 // Memory use on a GPU that stores images tightly in the formats of the plan; a device's own answer includes its
-// alignment and padding.
+// alignment and padding. Zero where the plan is not valid.
 inline MemoryUse memoryUse(const Plan& plan) {
     std::vector<size_t> sizes;
     MemoryUse use;
+    if (!validate(plan)) return use;
     for (const Resource& r : plan.resources) {
         sizes.push_back(bytesPerTexel(r.format) * size_t(r.extent.width) * size_t(r.extent.height));
         if (r.kind == ResourceKind::buffer || r.kind == ResourceKind::frameConstants) use.buffers += r.size;
     }
-    const TransientLayout layout = layoutTransients(plan, sizes, 256);
+    const TransientLayout layout = layoutTransients(plan, sizes, transientAlignment);
     use.transient = layout.size;
     use.transientUnshared = layout.sizeUnshared;
     return use;
 }
-
-// Checks what every device relies on: names and labels unique, bindings in range, each transient and output written before it
-// is read, never read and written by one pass, extents within 1 to maximumExtent, at most 16 slots and 4 features.
-Result<> validate(const Plan&);
 
 // One line a resource and a pass, for people and for comparison in tests.
 std::string toText(const Plan&);

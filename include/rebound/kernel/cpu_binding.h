@@ -15,7 +15,7 @@ inline constexpr int featureCapacity = 4;
 
 // A texture or image holds one plane of 32-bit floats a channel. Each row is followed, and the first one preceded, by
 // padding that reads as zero: lanes may straddle an image's sides.
-inline constexpr int rowPadding = 24;   // at least, behind a row [floats]
+inline constexpr int rowPadding = 32;   // at least, behind a row [floats]
 inline constexpr int planeMargin = 64;  // before the first row and behind the last [floats]
 inline constexpr int rowAlignment = 16; // of the distance between rows [floats]
 
@@ -36,6 +36,7 @@ using RunRows = void (*)(const Binding* slots, int width, int yBegin, int yEnd);
 struct KernelInfo {
     BindingKind kinds[slotCount];            // what the kernel declares in each slot
     int featureCounts[featureCapacity];      // number of values of each feature; 1: no such feature
+    size_t sizes[slotCount];                 // of what a slot of constants or of a buffer holds at least [bytes]
 };
 
 // One kernel, compiled for one instruction set.

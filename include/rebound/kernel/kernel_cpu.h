@@ -4,13 +4,31 @@
 #include "rebound/kernel/lanes.h"
 
 inline float halfToFloat(uint16_t h) { return glm::unpackHalf1x16(h); }
-inline uint16_t floatToHalf(float f) { return glm::packHalf1x16(f); }
+// glm::packHalf1x16 rounds halfway cases up; processors and GPUs round them to even.
+inline uint16_t floatToHalf(float f) {
+    const uint32_t bits = __builtin_bit_cast(uint32_t, f), magnitude = bits & 0x7fffffffu;
+    uint32_t half;
+    if (magnitude > 0x7f800000u) half = 0x7e00u;
+    else if (magnitude >= 0x477ff000u) half = 0x7c00u; // from 65520 on infinite
+    else if (magnitude < 0x38800000u)                  // a denormal half: where 0.5 is added, the unit is 2^-24
+        half = __builtin_bit_cast(uint32_t, __builtin_bit_cast(float, magnitude) + 0.5f) - 0x3f000000u;
+    else half = (magnitude - 0x38000000u + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
+    return uint16_t(half | ((bits >> 16) & 0x8000u));
+}
 
 #include "rebound/kernel/lanes_x86.h"
 #include "rebound/kernel/vectors_cpu.h"
 #include "rebound/kernel/images_cpu.h"
 
 #define RB_FUNCTION inline
+// Before a loop of a few rounds over an array: the array then lives in registers.
+#if defined(__clang__)
+#define RB_UNROLL _Pragma("clang loop unroll(full)")
+#elif defined(__GNUC__)
+#define RB_UNROLL _Pragma("GCC unroll 16")
+#else
+#define RB_UNROLL
+#endif
 #define RB_TEXTURE_ARGUMENT const Texture&
 
 template <int id>
@@ -51,10 +69,12 @@ constexpr int featureValue() {
 #define RB_BUFFER(slot, Type, name)                                                                                    \
     const Type* name;                                                                                                  \
     static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::buffer; }                                    \
+    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                                \
     void bind(Slot<slot>, const Binding& binding) { name = static_cast<const Type*>(binding.data); }
 #define RB_CONSTANTS(slot, Type, name)                                                                                 \
     Type name;                                                                                                         \
     static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::constants; }                                 \
+    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                                \
     void bind(Slot<slot>, const Binding& binding) { name = *static_cast<const Type*>(binding.data); }
 #define RB_MAIN(pixel, extent) void run(const Pixel pixel) const {
 #define RB_END_KERNEL                                                                                                  \

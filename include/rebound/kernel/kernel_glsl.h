@@ -10,6 +10,7 @@
 #define IVec2 ivec2
 #define Pixel ivec2
 #define RB_FUNCTION
+#define RB_UNROLL
 #define RB_TEXTURE_ARGUMENT highp sampler2D
 
 #define RB_KERNEL(name) layout(local_size_x = 8, local_size_y = 8) in;
@@ -52,6 +53,10 @@ vec4 select(bool m, vec4 a, vec4 b) { return m ? a : b; }
 bool anyLane(bool m) { return m; }
 float inverseSqrt(float x) { return inversesqrt(x); }
 float reciprocal(float x) { return 1.0f / x; }
+float toReal(int x) { return float(x); }
+int toInt(float x) { return int(x); }
+// A macro, since GLSL reserves the word.
+#define varying(v) (v)
 bool isFinite(float x) { return (floatBitsToInt(x) & 0x7f800000) != 0x7f800000; }
 
 vec2 pixelCenter(ivec2 p) { return vec2(p) + 0.5f; }

@@ -14,6 +14,12 @@ constexpr BindingKind bindingKindOf() {
     else return BindingKind::none;
 }
 
+template <int slot, class Kernel = ThisKernel<0, 0, 0, 0>>
+constexpr size_t sizeOf() {
+    if constexpr (requires { Kernel::sizeOf(Slot<slot>{}); }) return Kernel::sizeOf(Slot<slot>{});
+    else return 0;
+}
+
 template <class Kernel, int slot>
 void bindSlot(Kernel& kernel, const Binding* slots) {
     if constexpr (requires { kernel.bind(Slot<slot>{}, slots[slot]); }) kernel.bind(Slot<slot>{}, slots[slot]);
@@ -56,6 +62,7 @@ static constexpr auto kernelVariants = makeVariants(std::make_integer_sequence<i
 template <int... slot>
 constexpr KernelInfo makeKernelInfo(std::integer_sequence<int, slot...>) {
     return {{bindingKindOf<slot>()...},
-            {featureCountOf<0>(), featureCountOf<1>(), featureCountOf<2>(), featureCountOf<3>()}};
+            {featureCountOf<0>(), featureCountOf<1>(), featureCountOf<2>(), featureCountOf<3>()},
+            {sizeOf<slot>()...}};
 }
 static constexpr KernelInfo kernelInfo = makeKernelInfo(std::make_integer_sequence<int, slotCount>{});

@@ -4,7 +4,7 @@
 
 #ifndef REBOUND_SCALAR_LANES
 
-// 1 / sqrt(a) and 1 / a for normal positive a, to 2 units in the last place or so: the processor's estimate and one
+// 1 / sqrt(a) and 1 / a for normal positive a, to a relative 5e-7: the processor's estimate and one
 // step of Newton's method (two for 1 / a where the estimate has 12 bits would gain nothing visible in a half float).
 inline Real inverseSqrt(Real a) {
 #if defined(__AVX512F__)

@@ -48,7 +48,7 @@ public:
     // is short; the device stays as it was.
     Result<Program> compile(const Plan&) const;
 
-    // What compile() would allocate: 32-bit floats a channel in use, rows padded.
+    // What compile() would allocate: 32-bit floats a channel in use, rows padded. Zero where the plan is not valid.
     MemoryUse memoryUse(const Plan&) const;
 
     Isa isa() const;

@@ -6,7 +6,8 @@
 
 namespace rebound::cpu {
 
-// Calls body(i) once for every i in 0 to count - 1, from any threads, and returns when all calls have.
+// Calls body(i) once for every i in 0 to count - 1, from any threads, and returns when all calls have. Rebound's bodies
+// throw nothing.
 using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
 // Threads that wait for work between calls. Not to be called from within its own body, nor from two threads at once.
@@ -20,6 +21,9 @@ public:
     ThreadPool& operator=(const ThreadPool&) = delete;
 
     int threadCount() const;
+
+    // Where body throws, calls that have not begun are left out, and run() throws the first exception once those that
+    // have are done.
     void run(int count, const std::function<void(int)>& body);
 
 private:
