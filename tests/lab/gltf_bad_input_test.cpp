@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: MIT
+// Every kind of damaged file is one clear error.
+#include "gltf_draft.hpp"
+
+#include "lab/scene_files.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <random>
+
+namespace rebound::lab::test {
+namespace {
+
+std::string errorOf(const std::filesystem::path& file, const GltfOptions& options = {}) {
+    const Result<Scene> scene = loadGltf(file, options);
+    return scene ? "no error" : scene.error().message;
+}
+
+void checkError(const std::string& message, const std::string& file, const std::string& expected) {
+    INFO(message);
+    CHECK(message.find(file) != std::string::npos);
+    CHECK(message.find(expected) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+}
+
+struct Damage {
+    const char* name;
+    std::function<void(GltfDraft&)> apply;
+    const char* expected; // part of the message
+};
+
+void addNodes(GltfDraft& draft, const Json& nodes) {
+    draft.root["nodes"] = nodes;
+}
+
+const Damage damages[] = {
+    {"no asset", [](GltfDraft& d) { d.root.erase("asset"); }, "'asset'"},
+    {"version 1", [](GltfDraft& d) { d.root["asset"]["version"] = "1.0"; }, "1.0"},
+    {"unknown required extension",
+     [](GltfDraft& d) { d.root["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
+     "KHR_draco_mesh_compression"},
+    {"required extensions of numbers", [](GltfDraft& d) { d.root["extensionsRequired"] = {1}; },
+     "extensionsRequired"},
+    {"nodes are no list", [](GltfDraft& d) { d.root["nodes"] = 3; }, "nodes"},
+    {"meshes of numbers",
+     [](GltfDraft& d) {
+         d.root["meshes"] = {1, 2};
+     },
+     "'meshes'"},
+    {"accessor index of 2^32",
+     [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0]["indices"] = 4294967297; }, "4294967297"},
+    {"negative index", [](GltfDraft& d) { d.root["nodes"][0]["mesh"] = -5; }, "'mesh'"},
+    {"index as text", [](GltfDraft& d) { d.root["nodes"][0]["mesh"] = "0"; }, "'mesh'"},
+    {"fractional index", [](GltfDraft& d) { d.root["nodes"][0]["mesh"] = 0.5; }, "'mesh'"},
+    {"missing mesh", [](GltfDraft& d) { d.root["nodes"][0]["mesh"] = 7; }, "mesh 7"},
+    {"missing accessor",
+     [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 9; }, "accessor 9"},
+    {"attribute as text",
+     [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = "a"; }, "POSITION"},
+    {"missing material", [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0]["material"] = 2; },
+     "material 2"},
+    {"missing scene", [](GltfDraft& d) { d.root["scene"] = 4; }, "scene 4"},
+    {"scene of a missing node", [](GltfDraft& d) { d.root["scenes"][0]["nodes"] = {3}; }, "node 3"},
+    {"scene lists a node twice",
+     [](GltfDraft& d) {
+         d.root["scenes"][0]["nodes"] = {0, 0};
+     },
+     "twice"},
+    {"missing child", [](GltfDraft& d) { d.root["nodes"][0]["children"] = {8}; }, "node 8"},
+    {"child of two nodes",
+     [](GltfDraft& d) {
+         addNodes(d, {{{"mesh", 0}, {"children", {1}}}, Json::object(), {{"children", {1}}}});
+     },
+     "child twice"},
+    {"child listed twice",
+     [](GltfDraft& d) {
+         addNodes(d, {{{"mesh", 0}, {"children", {1, 1}}}, Json::object()});
+     },
+     "child twice"},
+    {"node as its own child", [](GltfDraft& d) { d.root["nodes"][0]["children"] = {0}; }, "cycle"},
+    {"cycle of two",
+     [](GltfDraft& d) {
+         addNodes(d, {{{"mesh", 0}}, {{"children", {2}}}, {{"children", {1}}}});
+     },
+     "cycle"},
+    {"scene lists a child",
+     [](GltfDraft& d) {
+         addNodes(d, {{{"mesh", 0}}, {{"children", {0}}}});
+     },
+     "another node's child"},
+    {"short matrix",
+     [](GltfDraft& d) {
+         d.root["nodes"][0]["matrix"] = {1, 0, 0};
+     },
+     "'matrix'"},
+    {"short translation",
+     [](GltfDraft& d) {
+         d.root["nodes"][0]["translation"] = {1, 0};
+     },
+     "'translation'"},
+    {"zero rotation",
+     [](GltfDraft& d) {
+         d.root["nodes"][0]["rotation"] = {0, 0, 0, 0};
+     },
+     "'rotation'"},
+    {"overflowing transform",
+     [](GltfDraft& d) {
+         addNodes(d,
+                  {{{"mesh", 0}, {"scale", {1e300, 1, 1}}, {"children", {1}}}, {{"scale", {1e300, 1, 1}}}});
+     },
+     "not finite"},
+    {"transform out of a float's range",
+     [](GltfDraft& d) {
+         d.root["nodes"][0]["scale"] = {1e60, 1, 1};
+     },
+     "position"},
+    {"huge count", [](GltfDraft& d) { d.root["accessors"][0]["count"] = 1099511627776; }, "1099511627776"},
+    {"count whose size overflows",
+     [](GltfDraft& d) { d.root["accessors"][0]["count"] = 1537228672809129302; }, "accessor 0"},
+    {"count of zero", [](GltfDraft& d) { d.root["accessors"][0]["count"] = 0; }, "no elements"},
+    {"negative count", [](GltfDraft& d) { d.root["accessors"][0]["count"] = -3; }, "count"},
+    {"one element too many", [](GltfDraft& d) { d.root["accessors"][0]["count"] = 4; },
+     "buffer view of 36 bytes"},
+    {"offset beyond the view", [](GltfDraft& d) { d.root["accessors"][0]["byteOffset"] = 4; }, "from byte 4"},
+    {"huge offset", [](GltfDraft& d) { d.root["accessors"][0]["byteOffset"] = 18446744073709551600u; },
+     "accessor 0"},
+    {"huge count without a buffer view",
+     [](GltfDraft& d) {
+         d.root["accessors"][0].erase("bufferView");
+         d.root["accessors"][0]["count"] = 1099511627776;
+     },
+     "without a buffer view"},
+    {"unknown component type", [](GltfDraft& d) { d.root["accessors"][0]["componentType"] = 5124; }, "5124"},
+    {"unknown type", [](GltfDraft& d) { d.root["accessors"][0]["type"] = "VEC9"; }, "VEC9"},
+    {"positions of two components", [](GltfDraft& d) { d.root["accessors"][0]["type"] = "VEC2"; },
+     "2 components"},
+    {"indices of floats",
+     [](GltfDraft& d) {
+         d.root["meshes"][0]["primitives"][0]["indices"] = 2;
+         d.addAccessor<float>("SCALAR", 3, {0, 1, 2});
+     },
+     "unsigned integers"},
+    {"index beyond the vertices",
+     [](GltfDraft& d) {
+         d.root["meshes"][0]["primitives"][0]["indices"] = 2;
+         d.addAccessor<uint32_t>("SCALAR", 3, {0, 1, 3});
+     },
+     "index 3 for 3 vertices"},
+    {"restart index",
+     [](GltfDraft& d) {
+         d.root["meshes"][0]["primitives"][0]["indices"] = 2;
+         d.addAccessor<uint16_t>("SCALAR", 3, {0, 1, 65535});
+     },
+     "65535"},
+    {"four indices",
+     [](GltfDraft& d) {
+         d.root["meshes"][0]["primitives"][0]["indices"] = 2;
+         d.addAccessor<uint8_t>("SCALAR", 4, {0, 1, 2, 0});
+     },
+     "4 indices"},
+    {"strip of two",
+     [](GltfDraft& d) {
+         d.root["meshes"][0]["primitives"][0]["mode"] = 5;
+         d.root["accessors"][1]["count"] = 2;
+     },
+     "2 indices"},
+    {"NaN position",
+     [](GltfDraft& d) {
+         const uint32_t nan = 0x7fc00000;
+         std::memcpy(d.buffer.data() + 12, &nan, 4);
+     },
+     "not finite"},
+    {"infinite position",
+     [](GltfDraft& d) {
+         const uint32_t inf = 0x7f800000;
+         std::memcpy(d.buffer.data() + 12, &inf, 4);
+     },
+     "not finite"},
+    {"too few normals",
+     [](GltfDraft& d) {
+         d.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 2;
+         d.addAccessor<float>("VEC3", 2, {0, 0, 1, 0, 0, 1});
+     },
+     "2 elements for 3 vertices"},
+    {"view beyond the buffer", [](GltfDraft& d) { d.root["bufferViews"][0]["byteLength"] = 1000; },
+     "1000 bytes"},
+    {"view at a huge offset",
+     [](GltfDraft& d) { d.root["bufferViews"][0]["byteOffset"] = 18446744073709551615u; }, "byteOffset"},
+    {"view of a missing buffer", [](GltfDraft& d) { d.root["bufferViews"][0]["buffer"] = 1; },
+     "buffer view 0"},
+    {"view without a buffer", [](GltfDraft& d) { d.root["bufferViews"][0].erase("buffer"); },
+     "buffer view 0"},
+    {"stride below the element", [](GltfDraft& d) { d.root["bufferViews"][0]["byteStride"] = 8; },
+     "stride of 8"},
+    {"odd stride", [](GltfDraft& d) { d.root["bufferViews"][0]["byteStride"] = 13; }, "13"},
+    {"buffer without a length",
+     [](GltfDraft& d) {
+         d.root["buffers"] = {{{"uri", "scene.bin"}}};
+     },
+     "byteLength"},
+    {"buffer of length 0",
+     [](GltfDraft& d) {
+         d.root["buffers"] = {{{"uri", "scene.bin"}, {"byteLength", 0}}};
+     },
+     "byteLength"},
+    {"missing buffer file",
+     [](GltfDraft& d) {
+         d.root["buffers"] = {{{"uri", "none.bin"}, {"byteLength", 44}}};
+     },
+     "none.bin"},
+    {"buffer file is a folder",
+     [](GltfDraft& d) {
+         d.root["buffers"] = {{{"uri", "."}, {"byteLength", 44}}};
+     },
+     "regular file"},
+    {"buffer without a URI",
+     [](GltfDraft& d) {
+         d.root["buffers"] = {{{"byteLength", 44}}};
+     },
+     "no 'uri'"},
+    {"data URI of a wrong length",
+     [](GltfDraft& d) {
+         d.root["buffers"] = {{{"byteLength", 44}, {"uri", "data:application/octet-stream;base64,AAAA"}}};
+     },
+     "Failed to decode"},
+    {"primitive without attributes",
+     [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0].erase("attributes"); }, "attributes"},
+    {"only points", [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0]["mode"] = 0; }, "no triangles"},
+    {"no nodes",
+     [](GltfDraft& d) {
+         d.root.erase("nodes");
+         d.root["scenes"][0]["nodes"] = Json::array();
+     },
+     "no triangles"},
+    {"sparse without values",
+     [](GltfDraft& d) {
+         d.root["accessors"][0]["sparse"] = {{"count", 1},
+                                             {"indices", {{"bufferView", 0}, {"componentType", 5121}}}};
+     },
+     "values"},
+    {"sparse index out of range",
+     [](GltfDraft& d) {
+         const int places = d.addView<uint8_t>({3});
+         const int values = d.addView<float>({1, 2, 3});
+         d.root["accessors"][0]["sparse"] = {{"count", 1},
+                                             {"indices", {{"bufferView", places}, {"componentType", 5121}}},
+                                             {"values", {{"bufferView", values}}}};
+     },
+     "element 3 of 3"},
+    {"sparse count beyond its views",
+     [](GltfDraft& d) {
+         const int places = d.addView<uint8_t>({1});
+         const int values = d.addView<float>({1, 2, 3});
+         d.root["accessors"][0]["sparse"] = {{"count", 2},
+                                             {"indices", {{"bufferView", places}, {"componentType", 5121}}},
+                                             {"values", {{"bufferView", values}}}};
+     },
+     "list of places"},
+    {"negative sparse count",
+     [](GltfDraft& d) {
+         d.root["accessors"][0]["sparse"] = {{"count", -1},
+                                             {"indices", {{"bufferView", 0}, {"componentType", 5121}}},
+                                             {"values", {{"bufferView", 0}}}};
+     },
+     "sparse part of -1"},
+};
+
+TEST_CASE("a damaged glTF file is refused with a message that names it and the damage") {
+    TemporaryFolder folder;
+    REQUIRE(loadGltf(triangleDraft().save(folder)));
+    for (const Damage& damage : damages) {
+        CAPTURE(damage.name);
+        GltfDraft draft = triangleDraft();
+        damage.apply(draft);
+        checkError(errorOf(draft.save(folder)), "scene.gltf", damage.expected);
+    }
+}
+
+TEST_CASE("what is not glTF is refused") {
+    TemporaryFolder folder;
+    checkError(errorOf(folder / "none.gltf"), "none.gltf", "does not exist");
+    std::filesystem::create_directory(folder / "folder.gltf");
+    checkError(errorOf(folder / "folder.gltf"), "folder.gltf", "regular file");
+    for (const char* text :
+         {"", "hello", "{", "[]", "3", "null", "{\"asset\": {\"version\": \"2.0\"}", "\xff\xfe"}) {
+        CAPTURE(text);
+        writeText(folder / "a.gltf", text);
+        checkError(errorOf(folder / "a.gltf"), "a.gltf", "not glTF");
+    }
+    CHECK(loadGltf(folder / "none.gltf").error().code == ErrorCode::notFound);
+}
+
+TEST_CASE("nesting without end is refused") {
+    TemporaryFolder folder;
+    const std::string open(200000, '['), close(200000, ']');
+    writeText(folder / "deep.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + open + close + "}");
+    checkError(errorOf(folder / "deep.gltf"), "deep.gltf", "nested deeper than 64");
+}
+
+TEST_CASE("a chain of a hundred thousand nodes is no recursion") {
+    TemporaryFolder folder;
+    GltfDraft draft = triangleDraft();
+    constexpr int length = 100000;
+    Json nodes = Json::array();
+    for (int i = 0; i < length; ++i)
+        nodes.push_back({{"children", {i + 1}}});
+    nodes.push_back({{"mesh", 0}, {"translation", {1, 0, 0}}});
+    draft.root["nodes"] = nodes;
+    const Result<Scene> scene = loadGltf(draft.save(folder));
+    REQUIRE(scene);
+    CHECK(scene->meshes.at(0).positions.at(0) == glm::vec3(1, 0, 0));
+}
+
+TEST_CASE("a mesh copied without bounds is refused before memory runs out") {
+    TemporaryFolder folder;
+    GltfDraft draft = triangleDraft();
+    draft.root["accessors"][0].erase("bufferView");
+    draft.root["accessors"][0]["count"] = 1 << 20; // the most that one accessor may claim
+    draft.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 0;
+    const Json primitive = draft.root["meshes"][0]["primitives"][0];
+    draft.root["meshes"][0]["primitives"] = Json(33, primitive);
+    checkError(errorOf(draft.save(folder)), "scene.gltf", "more than 33554432 vertices");
+}
+
+TEST_CASE("a cut binary file is refused at every length") {
+    TemporaryFolder folder;
+    const Bytes whole = triangleDraft().binary();
+    writeBytes(folder / "a.glb", whole.data(), whole.size());
+    REQUIRE(loadGltf(folder / "a.glb"));
+    for (size_t length = 0; length < whole.size(); ++length) {
+        CAPTURE(length);
+        writeBytes(folder / "a.glb", whole.data(), length);
+        CHECK(errorOf(folder / "a.glb") != "no error");
+    }
+}
+
+TEST_CASE("a binary file whose chunk lengths lie is refused") {
+    TemporaryFolder folder;
+    const Bytes whole = triangleDraft().binary();
+    const size_t jsonLength = whole[12] | size_t(whole[13]) << 8;
+    for (const size_t at : {size_t(8), size_t(12), 20 + jsonLength})
+        for (const uint8_t difference : {uint8_t(4), uint8_t(8), uint8_t(0xff)}) {
+            Bytes damaged = whole;
+            damaged[at] = static_cast<uint8_t>(damaged[at] + difference);
+            if (at == 20 + jsonLength && difference == 0xff)
+                damaged[at + 3] = 0xff;
+            CAPTURE(at);
+            CAPTURE(int(difference));
+            writeBytes(folder / "a.glb", damaged.data(), damaged.size());
+            CHECK(errorOf(folder / "a.glb") != "no error");
+        }
+}
+
+TEST_CASE("bytes changed at random never do worse than an error") {
+    TemporaryFolder folder;
+    const Bytes whole = triangleDraft().binary();
+    std::mt19937 random(1);
+    int refused = 0;
+    for (int round = 0; round < 500; ++round) {
+        Bytes damaged = whole;
+        for (int i = 0; i < 3; ++i)
+            damaged[random() % damaged.size()] = static_cast<uint8_t>(random());
+        writeBytes(folder / "a.glb", damaged.data(), damaged.size());
+        if (const Result<Scene> scene = loadGltf(folder / "a.glb"); scene)
+            CHECK(validate(*scene));
+        else
+            ++refused;
+    }
+    // Nearly all of the file is JSON and indices, where few changes are harmless.
+    CHECK(refused > 250);
+}
+
+} // namespace
+} // namespace rebound::lab::test
