@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The commands. Each prints to standard output only when it has succeeded.
+#pragma once
+
+#include "rebound/result.hpp"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace rebound::cli {
+
+using Command = std::function<Result<>()>;
+
+// Each adds a command to the program, and returns what runs it once the command line has been parsed.
+Command addRenderCommand(CLI::App& program);
+Command addBenchCommand(CLI::App& program);
+Command addPlanCommand(CLI::App& program);
+
+} // namespace rebound::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The frame that a command works on, rendered from a scene or read from a folder.
+#pragma once
+
+#include "lab/frame.hpp"
+#include "options.hpp"
+
+namespace rebound::cli {
+
+struct SourcedFrame {
+    lab::Frame frame;
+    std::string name; // the scene or the folder, as given
+    bool isStored = false;
+};
+
+// Scenes are rendered at the given size, which frames in folders ignore. The result has passed checkFrame.
+Result<SourcedFrame> obtainFrame(const SourceOptions&, Extent2D, int threads);
+
+} // namespace rebound::cli

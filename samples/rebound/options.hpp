@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What the commands share on the command line, and what it means.
+#pragma once
+
+#include "rebound/cpu/device.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace rebound::cli {
+
+// Where the picture comes from: a scene, or a stored frame.
+struct SourceOptions {
+    std::string scene = "builtin:atrium"; // a glTF file or a built-in scene's name
+    std::string frame;                    // a folder; empty: the scene
+    std::string view;                     // a view file; empty: view.json beside the scene
+    std::string camera;                   // empty: the first
+    std::optional<std::string> animation; // a clip's name
+    std::optional<float> time;            // of the clip [s]
+    int lightSamples = 16;                // shadow rays a pixel for each light that is not a point
+};
+
+// Settings of the technique as they were written; those that are absent are the preset's.
+struct TechniqueOptions {
+    std::string size = "1280x720";
+    std::string preset = "quarter-64";
+    std::optional<std::string> start, radius, reduction, formFactor;
+    std::optional<int> levels, samples, onlyLevel;
+    std::optional<float> minimumCosine;
+};
+
+struct DeviceChoice {
+    std::string isa = "automatic";
+    int threads = 0; // 0: one a core
+    std::string precision = "half";
+};
+
+void addSourceOptions(CLI::App&, SourceOptions&);
+void addTechniqueOptions(CLI::App&, TechniqueOptions&);
+void addDeviceOptions(CLI::App&, DeviceChoice&);
+// To be called after the three above: those that say what a scene looks like contradict --frame.
+void excludeSceneOptionsFromFrames(CLI::App&);
+
+// WIDTHxHEIGHT, each 1 to maximumExtent.
+Result<Extent2D> parseSize(const std::string&);
+
+// The preset with the options' own values; resolution replaces --size. The result is not validated.
+Result<ScreenIndirectSettings> settingsOf(const TechniqueOptions&, Extent2D resolution);
+
+// A plan, with errors that name options instead of settings.
+Result<Plan> planOf(const ScreenIndirectSettings&);
+
+// A device that measures its passes.
+Result<cpu::Device> createDevice(const DeviceChoice&);
+Result<cpu::Scalar> scalarOf(const DeviceChoice&);
+
+// How options spell a setting's value.
+const char* nameOf(StartResolution);
+const char* nameOf(Reduction);
+const char* nameOf(FormFactor);
+const char* nameOf(cpu::Scalar);
+
+} // namespace rebound::cli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace rebound::cli {
+
+namespace {
+
+Result<> printPlan(const TechniqueOptions& options) {
+    const auto extent = parseSize(options.size);
+    if (!extent)
+        return extent.error();
+    const auto settings = settingsOf(options, *extent);
+    if (!settings)
+        return settings.error();
+    const auto plan = planOf(*settings);
+    if (!plan)
+        return plan.error();
+    DeviceChoice choice;
+    choice.threads = 1; // nothing runs
+    const auto device = createDevice(choice);
+    if (!device)
+        return device.error();
+    std::cout << rebound::toText(*plan) << "memory on the CPU " << toText(device->memoryUse(*plan))
+              << "\nmemory on a GPU " << toText(memoryUse(*plan)) << '\n';
+    return {};
+}
+
+} // namespace
+
+Command addPlanCommand(CLI::App& program) {
+    auto options = std::make_shared<TechniqueOptions>();
+    CLI::App* app = program.add_subcommand("plan", "print resources, passes and memory, and run nothing");
+    addTechniqueOptions(*app, *options);
+    app->footer(
+        "One line a resource and a pass, as perspective cameras have them, then what they take; the GPU's\n"
+        "images are counted in the formats that the plan names, without a driver's padding.\n"
+        "\n"
+        "Example:\n"
+        "  rebound plan --size 1920x1080 --preset half-64");
+    return [options] { return printPlan(*options); };
+}
+
+} // namespace rebound::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A line on a terminal that says how far a long step is.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace rebound::cli {
+
+// Says nothing in the first second, nor where standard error is not a terminal; its destructor clears the
+// line.
+class ProgressLine {
+public:
+    explicit ProgressLine(std::string what);
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    // share: what is done, 0 to 1. From any thread, one call at a time.
+    void update(double share);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string what;
+    bool isTerminal;
+    Clock::time_point next; // no line before
+    bool shown = false;
+};
+
+} // namespace rebound::cli

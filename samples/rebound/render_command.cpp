@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "commands.hpp"
+#include "frame_pipeline.hpp"
+#include "frame_source.hpp"
+#include "lab/image_files.hpp"
+#include "lab/output_file.hpp"
+#include "memory_check.hpp"
+#include "options.hpp"
+#include "output_folder.hpp"
+#include "pictures.hpp"
+#include "report.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <memory>
+#include <span>
+
+namespace rebound::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+    SourceOptions source;
+    TechniqueOptions technique;
+    DeviceChoice device;
+    std::string out = "out";
+};
+
+// What may be said about the options before anything long begins.
+struct Preparation {
+    cpu::Device device;
+    cpu::Scalar precision;
+    Extent2D extent; // of scenes
+};
+
+Result<Preparation> prepare(const RenderOptions& options) {
+    const auto extent = parseSize(options.technique.size);
+    if (!extent)
+        return extent.error();
+    const auto settings = settingsOf(options.technique, *extent);
+    if (!settings)
+        return settings.error();
+    const auto plan = planOf(*settings);
+    if (!plan)
+        return plan.error();
+    const auto precision = scalarOf(options.device);
+    if (!precision)
+        return precision.error();
+    auto device = createDevice(options.device);
+    if (!device)
+        return device.error();
+    if (auto enough = checkMemory(*device, *plan, *extent); !enough)
+        return enough.error();
+    if (auto writable = checkOutputFolder(options.out); !writable)
+        return writable.error();
+    return Preparation{*std::move(device), *precision, *extent};
+}
+
+std::vector<OutputFile> imageFiles(const RenderedImages& images, const lab::ToneCurve& curve,
+                                   cpu::Scalar scalar) {
+    const auto precision = scalar == cpu::Scalar::float16 ? lab::ExrPrecision::half : lab::ExrPrecision::full;
+    std::vector<OutputFile> files;
+    const auto add = [&](const std::string& name, const lab::Image& image) {
+        files.push_back({name + ".exr", [&image, precision](const fs::path& path) {
+                             return lab::writeExr(path, image, precision);
+                         }});
+        files.push_back({name + ".png", [&image, &curve](const fs::path& path) {
+                             return lab::writePng(path, lab::toneMap(image, curve));
+                         }});
+    };
+    add("direct", images.direct);
+    add("indirect", images.indirect);
+    add("final", images.final);
+    return files;
+}
+
+Json timingsToJson(Json json, const std::vector<PassTiming>& timings, double frameMilliseconds) {
+    json["passes"] = Json::array();
+    for (const PassTiming& pass : timings)
+        json["passes"].push_back({{"name", pass.label}, {"ms", pass.milliseconds}});
+    json["frame"] = {{"ms", frameMilliseconds}};
+    return json;
+}
+
+std::string timingTable(const std::vector<PassTiming>& timings, double frameMilliseconds) {
+    std::vector<TableRow> rows;
+    for (const PassTiming& pass : timings)
+        rows.push_back({pass.label, {pass.milliseconds}});
+    rows.push_back({"frame", {frameMilliseconds}});
+    return toTable({"pass", "ms"}, rows);
+}
+
+// The first frame after the plan was compiled pays for memory that was not touched before; the second is
+// measured.
+Result<double> runMeasured(FramePipeline& pipeline) {
+    if (auto first = pipeline.run(); !first)
+        return first;
+    return pipeline.run();
+}
+
+void printLimited(const FramePipeline& pipeline) {
+    if (pipeline.limitedPixels() > 0)
+        std::cout << "note: radiance above " << largestHalf << " W m^-2 sr^-1 was limited to it in "
+                  << pipeline.limitedPixels() << " pixels\n";
+}
+
+Result<> render(const RenderOptions& options) {
+    auto preparation = prepare(options);
+    if (!preparation)
+        return preparation.error();
+    const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
+    if (!source)
+        return source.error();
+    const auto settings = settingsOf(options.technique, source->frame.depth.extent());
+    if (!settings)
+        return settings.error();
+    auto pipeline =
+        FramePipeline::create(source->frame, *settings, preparation->device, preparation->precision);
+    if (!pipeline)
+        return pipeline.error();
+    const auto milliseconds = runMeasured(*pipeline);
+    if (!milliseconds)
+        return milliseconds.error();
+
+    const RenderedImages images{pipeline->direct(), pipeline->indirect(), pipeline->composed()};
+    const lab::ToneCurve curve = lab::automaticToneCurve(images.final);
+    Json figures =
+        timingsToJson(runToJson(*source, pipeline->settings(), options.technique.preset, preparation->device,
+                                preparation->precision, pipeline->memoryUse()),
+                      pipeline->timings(), *milliseconds);
+    figures["exposure"] = curve.exposure;
+    std::vector<OutputFile> files = imageFiles(images, curve, preparation->precision);
+    files.push_back({"contact_sheet.png", [&](const fs::path& path) {
+                         return lab::writePng(path, contactSheetOf(images, source->frame, curve));
+                     }});
+    files.push_back({"timings.json", [&](const fs::path& path) {
+                         const std::string text =
+                             figures.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+                         return lab::writeFile(path, std::as_bytes(std::span(text)));
+                     }});
+    if (auto written = writeOutputFolder(options.out, files); !written)
+        return written;
+
+    std::cout << describeRun(*source, pipeline->settings(), options.technique.preset, preparation->device,
+                             preparation->precision)
+              << '\n'
+              << timingTable(pipeline->timings(), *milliseconds) << "\nmemory "
+              << toText(pipeline->memoryUse()) << "\nexposure " << curve.exposure
+              << ", then 1 - exp(-x) and sRGB, in every picture\n";
+    printLimited(*pipeline);
+    std::cout << "written to " << options.out << ":";
+    for (const OutputFile& file : files)
+        std::cout << ' ' << file.name;
+    std::cout << '\n';
+    return {};
+}
+
+} // namespace
+
+Command addRenderCommand(CLI::App& program) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* app = program.add_subcommand("render", "render a scene or a stored frame with indirect light");
+    addSourceOptions(*app, options->source);
+    addTechniqueOptions(*app, options->technique);
+    addDeviceOptions(*app, options->device);
+    excludeSceneOptionsFromFrames(*app);
+    app->add_option("--out", options->out,
+                    "folder for the outputs, created where it is missing (default: out)")
+        ->option_text("DIR")
+        ->group("Output");
+    app->footer("Outputs, linear Rec. 709, in half precision or, with --precision float, in single:\n"
+                "  direct.exr    emission + albedo * E / pi, E straight from the lights [W m^-2 sr^-1]\n"
+                "  indirect.exr  E / pi of light that met one other surface, albedo not in it\n"
+                "  final.exr     direct + albedo * indirect\n"
+                "  direct.png, indirect.png, final.png: the same through one tone curve\n"
+                "  contact_sheet.png: these, albedo, normals and depth\n"
+                "  timings.json: milliseconds of every pass in one frame, memory [bytes], settings\n"
+                "Every surface is Lambertian and sends its direct light and emission to the others.\n"
+                "\n"
+                "Examples:\n"
+                "  rebound render\n"
+                "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
+                "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
+                "  rebound render --frame captured --preset half-256 --precision float");
+    return [options] { return render(*options); };
+}
+
+} // namespace rebound::cli

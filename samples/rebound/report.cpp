@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rebound::cli {
+
+namespace {
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[256];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+std::string plural(int count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string megabytes(size_t bytes) {
+    return formatted("%.2f MB", double(bytes) / 1e6);
+}
+
+Json settingsToJson(const ScreenIndirectSettings& s, const std::string& preset) {
+    Json json;
+    json["preset"] = preset;
+    json["start"] = nameOf(s.start);
+    json["levels"] = s.levels;
+    json["samples_per_level"] = s.samplesPerLevel;
+    json["ring_radius_texels"] = s.ringRadius;
+    json["reduction"] = nameOf(s.reduction);
+    json["form_factor"] = nameOf(s.formFactor);
+    json["minimum_cosine"] = s.minimumCosine;
+    json["only_level"] = s.onlyLevel ? Json(*s.onlyLevel) : Json(nullptr);
+    return json;
+}
+
+} // namespace
+
+std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings& s,
+                        const std::string& preset, const cpu::Device& device, cpu::Scalar precision) {
+    std::string text = source.name;
+    if (!source.frame.camera.name.empty())
+        text += ", camera " + source.frame.camera.name;
+    text += ", " + std::to_string(s.resolution.width) + "x" + std::to_string(s.resolution.height) + ", " +
+            cpu::name(device.isa()) + " on " + plural(device.threads(), "thread") + ", images in " +
+            nameOf(precision) + "\n";
+    text += preset + ": from " + nameOf(s.start) + " resolution, " + plural(s.levels, "level") + ", " +
+            std::to_string(s.samplesPerLevel) + " samples a level, " +
+            formatted("ring radius %g texels, ", double(s.ringRadius)) + nameOf(s.reduction) +
+            ", form factor " + nameOf(s.formFactor) +
+            formatted(", minimum cosine %g", double(s.minimumCosine));
+    if (s.onlyLevel)
+        text += ", only level " + std::to_string(*s.onlyLevel);
+    return text + "\n";
+}
+
+Json runToJson(const SourcedFrame& source, const ScreenIndirectSettings& s, const std::string& preset,
+               const cpu::Device& device, cpu::Scalar precision, const MemoryUse& memory) {
+    Json json;
+    json[source.isStored ? "frame_folder" : "scene"] = source.name;
+    json["camera"] = source.frame.camera.name;
+    json["resolution"] = {s.resolution.width, s.resolution.height};
+    json["settings"] = settingsToJson(s, preset);
+    json["isa"] = cpu::name(device.isa());
+    json["threads"] = device.threads();
+    json["precision"] = nameOf(precision);
+    json["memory"] = {{"transient_bytes", memory.transient},
+                      {"transient_unshared_bytes", memory.transientUnshared},
+                      {"buffer_bytes", memory.buffers},
+                      {"total_bytes", memory.total()}};
+    return json;
+}
+
+std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>& rows) {
+    size_t nameWidth = headings[0].size();
+    for (const TableRow& row : rows)
+        nameWidth = std::max(nameWidth, row.first.size());
+    const auto padded = [&](const std::string& name) {
+        return name + std::string(nameWidth - name.size(), ' ');
+    };
+    std::string text = padded(headings[0]);
+    for (size_t i = 1; i < headings.size(); ++i)
+        text += formatted("  %12s", headings[i].c_str());
+    text += "\n";
+    const std::string rule(text.size() - 1, '-');
+    for (const TableRow& row : rows) {
+        if (&row == &rows.back())
+            text += rule + "\n";
+        text += padded(row.first);
+        for (const double value : row.second)
+            text += formatted("  %12.2f", value);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string toText(const MemoryUse& memory) {
+    return megabytes(memory.total()) + ": " + megabytes(memory.transient) +
+           " for images that live within a frame (" + megabytes(memory.transientUnshared) +
+           " if they shared nothing), " + megabytes(memory.buffers) + " for constants and patterns";
+}
+
+} // namespace rebound::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Figures as tables for people and as JSON for programs.
+#pragma once
+
+#include "frame_pipeline.hpp"
+#include "frame_source.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rebound::cli {
+
+// Keeps the order in which keys were added.
+using Json = nlohmann::ordered_json;
+
+// What was run on what, in two lines.
+std::string describeRun(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,
+                        const cpu::Device&, cpu::Scalar);
+// The same for programs: scene or frame, camera, resolution, settings, isa, threads, precision, memory
+// [bytes].
+Json runToJson(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,
+               const cpu::Device&, cpu::Scalar, const MemoryUse&);
+
+// A table with a name and numbers in each row, two decimals; the last row is set apart.
+using TableRow = std::pair<std::string, std::vector<double>>;
+std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>&);
+
+std::string toText(const MemoryUse&);
+
+} // namespace rebound::cli
