@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "reference_frames.hpp"
+
+#include "lab/image_files.hpp"
+#include "rebound/cpu/device.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace rebound::accuracy {
+namespace {
+
+template <class T>
+T take(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    return std::move(*result);
+}
+
+Camera matricesOf(const lab::CameraView& view, Extent2D extent) {
+    Camera camera;
+    camera.view = glm::lookAtRH(view.position, view.target, view.up);
+    camera.projection = glm::perspectiveRH_ZO(view.verticalFieldOfView, float(extent.width) / float(extent.height),
+                                              view.nearPlane, view.farPlane);
+    return camera;
+}
+
+} // namespace
+
+std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& shared) {
+    std::vector<ReferenceView> views;
+    std::ifstream file(shared / "reference" / "limits.json");
+    if (!file) return views;
+    const nlohmann::ordered_json limits = nlohmann::ordered_json::parse(file);
+    for (const auto& [name, presets] : limits.items()) {
+        const std::filesystem::path folder = shared / "reference" / name;
+        ReferenceView view{name, take(lab::readFrame(folder)), take(lab::readExr(folder / "indirect_1.exr")), {}};
+        view.bruteForce = {presets.at("brute").at(0).get<double>(), presets.at("brute").at(1).get<double>()};
+        // Light straight from an emitter is in direct.exr, so the references count no emission of senders' own.
+        view.frame.emission = {};
+        views.push_back(std::move(view));
+    }
+    return views;
+}
+
+lab::Image gather(const ReferenceView& view, ScreenIndirectSettings settings) {
+    const lab::Frame& frame = view.frame;
+    const Extent2D extent = frame.depth.extent();
+    settings.compose = false;
+    const cpu::Device device = take(cpu::Device::create());
+    cpu::Program program = take(device.compile(take(planScreenIndirect(settings))));
+    lab::Image radiance = lab::outgoingRadiance(frame), result(extent, 3);
+    const auto image = [&](const lab::Image& i) {
+        return cpu::interleavedImage(const_cast<float*>(i.data.data()), extent, i.channels);
+    };
+    ScreenIndirectFrame<cpu::Image> inputs;
+    inputs.camera = matricesOf(frame.camera, extent);
+    inputs.depth = image(frame.depth);
+    inputs.normal = image(frame.normal);
+    inputs.radiance = image(radiance);
+    inputs.indirect = image(result);
+    take(program.record(take(screenIndirectInputs(settings, inputs))));
+    return result;
+}
+
+ImageError errorOf(const lab::Image& result, const ReferenceView& view) {
+    double squared = 0, truth = 0, sum = 0, count = 0;
+    for (size_t pixel = 0; pixel < view.frame.depth.data.size(); ++pixel) {
+        if (view.frame.depth.data[pixel] <= 0.0f) continue;
+        for (size_t c = 0; c < 3; ++c) {
+            const double r = result.data[3 * pixel + c], t = view.truth.data[3 * pixel + c];
+            squared += (r - t) * (r - t);
+            truth += t;
+            sum += r;
+            count += 1;
+        }
+    }
+    return {std::sqrt(squared / count) / (truth / count), sum / truth};
+}
+
+} // namespace rebound::accuracy

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Runs presets on the reference frames, whose one-bounce light an independent renderer traced, and measures the error.
+#pragma once
+
+#include "lab/frame.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rebound::accuracy {
+
+// Over all pixels that see a surface and all three channels.
+struct ImageError {
+    double relativeRmse = 0; // root of the mean squared error over the truth's mean
+    double mean = 0;         // the result's mean over the truth's
+};
+
+struct ReferenceView {
+    std::string name;        // scene/camera
+    lab::Frame frame;
+    lab::Image truth;        // E / pi of light that met exactly one other surface
+    ImageError bruteForce;        // of the sum over every pixel of the start resolution, as published with the references
+};
+
+// Those below <shared>/reference that limits.json lists, in its order; empty where it is not there.
+std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& shared);
+
+// E / pi by the technique at these settings on the CPU, from radiance albedo * direct.
+lab::Image gather(const ReferenceView&, ScreenIndirectSettings);
+
+ImageError errorOf(const lab::Image& result, const ReferenceView&);
+
+} // namespace rebound::accuracy

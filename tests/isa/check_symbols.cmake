@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+# Fails where an object of LIST that was compiled for AVX2 or AVX-512 defines a symbol that does not name that
+# instruction set's namespace: rebound::cpu::<isa>, glm_<isa> or xsimd_<isa>, as such or in a template argument.
+cmake_minimum_required(VERSION 3.22)
+file(READ ${LIST} objects)
+
+# Data that every file defines alike: the address of the C++ runtime's exception handler.
+set(harmless "^DW\\.ref\\.__gxx_personality_v0$")
+
+set(leaks "")
+foreach(isa avx2 avx512)
+    set(checked 0)
+    string(LENGTH ${isa} length)
+    math(EXPR glm_length "4 + ${length}")
+    math(EXPR xsimd_length "6 + ${length}")
+    set(own "7rebound3cpu${length}${isa}|${glm_length}glm_${isa}|${xsimd_length}xsimd_${isa}")
+    foreach(object ${objects})
+        if(NOT object MATCHES "_${isa}\\.cpp\\.[a-z]+$")
+            continue()
+        endif()
+        execute_process(COMMAND ${NM} --extern-only --defined-only --format=posix ${object}
+            RESULT_VARIABLE result OUTPUT_VARIABLE output)
+        if(NOT result EQUAL 0)
+            message(FATAL_ERROR "${NM} cannot read ${object}")
+        endif()
+        string(REGEX MATCHALL "[^\n]+" lines "${output}")
+        foreach(line ${lines})
+            string(REGEX REPLACE " .*" "" symbol "${line}")
+            math(EXPR checked "${checked} + 1")
+            if(NOT symbol MATCHES "${own}" AND NOT symbol MATCHES "${harmless}")
+                string(APPEND leaks "${object} defines ${symbol}\n")
+            endif()
+        endforeach()
+    endforeach()
+    if(checked EQUAL 0)
+        message(FATAL_ERROR "no symbols of ${isa} were found")
+    endif()
+    message("${isa}: ${checked} symbols")
+endforeach()
+if(leaks)
+    message("${leaks}")
+    message(FATAL_ERROR "the linker may merge these symbols across instruction sets")
+endif()

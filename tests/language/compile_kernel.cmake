@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# Compiles SOURCE: without an error where EXPECTED is empty, else with none but errors that match it.
+cmake_minimum_required(VERSION 3.22)
+list(REMOVE_ITEM INCLUDES "")
+list(TRANSFORM INCLUDES PREPEND -I)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C
+    ${COMPILER} ${OPTIONS} ${INCLUDES} -fno-diagnostics-color -fsyntax-only ${SOURCE}
+    RESULT_VARIABLE status ERROR_VARIABLE output)
+if(NOT EXPECTED)
+    if(NOT status EQUAL 0)
+        message("${output}")
+        message(FATAL_ERROR "the compiler refused the kernel")
+    endif()
+    return()
+endif()
+string(REGEX MATCHALL "[^\n]* error: [^\n]*" errors "${output}")
+if(status EQUAL 0 OR NOT errors)
+    message(FATAL_ERROR "the compiler took the kernel")
+endif()
+foreach(error ${errors})
+    if(NOT error MATCHES "${EXPECTED}")
+        message("${output}")
+        message(FATAL_ERROR "the compiler refused the kernel for another reason")
+    endif()
+endforeach()
+message("${errors}")

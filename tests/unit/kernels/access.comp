@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/kernel/kernel.h"
+#include "test_constants.h"
+
+// One way to read an image.
+RB_KERNEL(Access)
+RB_FEATURE(0, mode, accessCount)
+RB_TEXTURE(0, source)
+RB_INPUT(1, host)
+RB_OUTPUT(2, rgba32f, result)
+RB_CONSTANTS(3, AccessConstants, k)
+RB_MAIN(pixel, k.extent)
+    ivec2 offset = ivec2(k.offset.x, k.offset.y);
+    Vec4 r = Vec4(0.0f);
+    if (mode == accessFetch) r = fetch(source, pixel);
+    if (mode == accessOffset) r = fetchOffset(source, pixel, offset);
+    if (mode == accessMinified) r = fetchMinified(source, pixel, offset);
+    if (mode == accessMagnified) r = fetchMagnified(source, pixel, ivec2(k.extent.w), k.extent.z, offset);
+    if (mode == accessAt) {
+        Vec2 center = pixelCenter(pixel);
+        r = fetchAt(source, IVec2(toInt(center.x) * 3 + offset.x, toInt(center.y) * 2 + offset.y));
+    }
+    if (mode == accessReaches) {
+        if (reaches(source, pixel, offset)) r = Vec4(1.0f);
+    }
+    if (mode == accessHost) r = fetch(host, pixel);
+    if (mode == accessHostOffset) r = fetchOffset(host, pixel, offset);
+    if (mode == accessHostMinified) r = fetchMinified(host, pixel, offset);
+    if (mode == accessCenter) {
+        Vec2 center = pixelCenter(pixel);
+        r = Vec4(center.x, center.y, Real(0.0f), Real(0.0f));
+    }
+    store(result, pixel, r);
+RB_END_KERNEL
