@@ -17,7 +17,7 @@ RB_BUFFER(3, RingSample, ring)
 RB_CONSTANTS(4, CameraConstants, camera)
 RB_CONSTANTS(5, GatherConstants, k)
 RB_MAIN(pixel, k.extent)
-    Surface receiver = unpackTexel(fetch(surfaces, pixel), fetch(light, pixel)).surface;
+    Surface receiver = unpackSurface(fetch(surfaces, pixel));
     Vec3 n = receiver.normal;
     Vec2 ray = viewRay(camera, pixelCenter(pixel) * k.scale.x);
     Vec3 x = viewPosition(ray, receiver.z, projection);
@@ -29,7 +29,7 @@ RB_MAIN(pixel, k.extent)
         Vec4 l = fetchOffset(light, pixel, offset);
         Vec2 senderRay = Vec2(ray.x + float(offset.x) * k.scale.x * camera.ray.x,
                               ray.y + float(offset.y) * k.scale.x * camera.ray.y);
-        Vec3 d = viewPosition(senderRay, sender.w, projection) - x;
+        Vec3 d = viewPosition(senderRay, senderDistance(sender, l), projection) - x;
         // A receiver is no sender to itself: both cosines are 0, and the distance must not be.
         Real d2 = max(dot(d, d), Real(1e-30f));
         Real inverse = inverseSqrt(d2);

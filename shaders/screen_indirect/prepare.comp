@@ -19,6 +19,6 @@ RB_CONSTANTS(6, ReduceConstants, k)
 RB_MAIN(pixel, k.extent)
     LevelTexel texel = texelOf(camera, pixelCenter(pixel), fetch(depth, pixel), fetch(normal, pixel),
                                fetch(radiance, pixel), k.scale.y, projection);
-    store(surfaceOut, pixel, packSurface(texel));
+    store(surfaceOut, pixel, packSurface(texel.surface));
     store(lightOut, pixel, packLight(texel));
 RB_END_KERNEL

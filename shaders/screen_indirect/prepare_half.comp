@@ -30,6 +30,6 @@ RB_MAIN(pixel, k.extent)
                           projection);
     }
     LevelTexel coarse = reduceFour(fine, camera, coordinate, 1.0f, reduction, projection);
-    store(surfaceOut, pixel, packSurface(coarse));
+    store(surfaceOut, pixel, packSurface(coarse.surface));
     store(lightOut, pixel, packLight(coarse));
 RB_END_KERNEL

@@ -24,6 +24,6 @@ RB_MAIN(pixel, k.extent)
         fine[i] = unpackTexel(fetchMinified(surfaces, pixel, offset), fetchMinified(light, pixel, offset));
     }
     LevelTexel coarse = reduceFour(fine, camera, pixelCenter(pixel) * (2.0f * k.scale.x), k.scale.x, reduction, projection);
-    store(surfaceOut, pixel, packSurface(coarse));
+    store(surfaceOut, pixel, packSurface(coarse.surface));
     store(lightOut, pixel, packLight(coarse));
 RB_END_KERNEL

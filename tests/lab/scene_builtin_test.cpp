@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -143,8 +144,9 @@ TEST_CASE("the built-in scenes are valid, lit, and have their cameras") {
 TEST_CASE("the published blocks of the box have square corners and their height") {
     const Scene scene = makeCornellBox();
     for (const auto& [name, height] : {std::pair("short block", 1.65f), std::pair("tall block", 3.3f)}) {
+        const std::string wanted = name;
         const auto block = std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                                        [&](const Mesh& mesh) { return mesh.name == name; });
+                                        [&](const Mesh& mesh) { return mesh.name == wanted; });
         REQUIRE(block != scene.meshes.end());
         // The published corners are rounded to millimetres of a block of 16 cm: its base is within 2 %
         // of 1.65 m squared.

@@ -10,6 +10,10 @@
 namespace rebound {
 namespace {
 
+std::string numbered(std::string name, int i) {
+    return name.append(std::to_string(i));
+}
+
 // input -> first -> a -> second -> output
 Plan smallPlan() {
     Plan plan{"small", {}, {}};
@@ -40,7 +44,7 @@ Plan randomPlan(std::mt19937& random) {
     Plan plan{"random", {}, {}};
     const int transients = pick(1, 14), passes = pick(1, 20);
     for (int i = 0; i < transients; ++i)
-        plan.add({"t" + std::to_string(i),
+        plan.add({numbered("t", i),
                   ResourceKind::transient,
                   Format(pick(0, 2)),
                   4,
@@ -49,7 +53,7 @@ Plan randomPlan(std::mt19937& random) {
                   0});
     std::vector<bool> written(size_t(transients), false);
     for (int p = 0; p < passes; ++p) {
-        Pass pass{"p" + std::to_string(p), "k", {}, {}, {1, 1}};
+        Pass pass{numbered("p", p), "k", {}, {}, {1, 1}};
         const int target = pick(0, transients - 1);
         pass.bindings.push_back({0, target, Access::write});
         for (int slot = 1; slot <= pick(0, 3); ++slot)
@@ -205,8 +209,7 @@ TEST_CASE("the largest plan's memory is told without being allocated") {
     Plan plan{"large", {}, {}};
     Pass pass{"p", "k", {}, {}, {16384, 16384}};
     for (int i = 0; i < 16; ++i) {
-        plan.add(
-            {"t" + std::to_string(i), ResourceKind::transient, Format::rgba32f, 4, {16384, 16384}, {}, 0});
+        plan.add({numbered("t", i), ResourceKind::transient, Format::rgba32f, 4, {16384, 16384}, {}, 0});
         pass.bindings.push_back({i, i, Access::write});
     }
     plan.passes.push_back(pass);

@@ -89,29 +89,27 @@ inline Result<> validate(const Plan& plan) {
     return {};
 }
 
+// Text is appended piece by piece: GCC 12 takes "literal" + std::string for an overlap (GCC bug 105651).
 inline std::string toText(const Plan& plan) {
-    std::string text = "plan " + plan.technique + "\n";
+    std::string text = "plan ";
+    text.append(plan.technique).append("\n");
     for (const Resource& r : plan.resources) {
-        text += "resource " + r.name + ": " + detail::name(r.kind);
+        text.append("resource ").append(r.name).append(": ").append(detail::name(r.kind)).append(" ");
         if (detail::isImage(r.kind))
-            text += " " + detail::toText(r.extent) + " " + name(r.format) + ", " + std::to_string(r.channels) +
-                    (r.channels == 1 ? " channel" : " channels");
-        else text += " " + std::to_string(r.size) + " bytes";
-        text += "\n";
+            text.append(detail::toText(r.extent)).append(" ").append(name(r.format)).append(", ")
+                .append(std::to_string(r.channels)).append(r.channels == 1 ? " channel" : " channels");
+        else text.append(std::to_string(r.size)).append(" bytes");
+        text.append("\n");
     }
     for (const Pass& pass : plan.passes) {
-        text += "pass " + pass.label + ": " + pass.kernel;
-        if (!pass.features.empty()) {
-            text += " <";
-            for (size_t i = 0; i < pass.features.size(); ++i)
-                text += (i ? "," : "") + std::to_string(pass.features[i]);
-            text += ">";
-        }
-        text += " for " + detail::toText(pass.grid);
+        text.append("pass ").append(pass.label).append(": ").append(pass.kernel);
+        for (size_t i = 0; i < pass.features.size(); ++i)
+            text.append(i == 0 ? " <" : ",").append(std::to_string(pass.features[i]));
+        text.append(pass.features.empty() ? " for " : "> for ").append(detail::toText(pass.grid));
         for (const PassBinding& b : pass.bindings)
-            text += std::string(b.access == Access::read ? ", reads " : ", writes ") +
-                    plan.resources[size_t(b.resource)].name;
-        text += "\n";
+            text.append(b.access == Access::read ? ", reads " : ", writes ")
+                .append(plan.resources[size_t(b.resource)].name);
+        text.append("\n");
     }
     return text;
 }

@@ -3,15 +3,16 @@
 #ifndef REBOUND_BILATERAL_H
 #define REBOUND_BILATERAL_H
 
-// How far a texel's surface agrees with the receiver's, 0 to 1.
-//   planeDistance   of the texel's position from the receiver's tangent plane, in texels: agreement ends at 2
-//   cosine2         square of the cosine between the two normals, 0 where they face apart; agreement is its 4th power
-RB_FUNCTION Real bilateralWeight(Real planeDistance, Real cosine2)
+// How far a texel's surface agrees with the receiver's, up to 1. Near a Gaussian of one texel in the distance, but with
+// a longer tail, so that where nothing agrees what lies nearest and faces alike still decides.
+//   planeDistance2  squared distance of the texel's position from the receiver's tangent plane, in texels
+//   cosine2         square of the cosine between the two normals, 0 where they face apart
+RB_FUNCTION Real bilateralWeight(Real planeDistance2, Real cosine2)
 {
-    Real depthAgreement = max(Real(1.0f) - planeDistance * planeDistance * 0.25f, Real(0.0f));
+    Real nearness = reciprocal(planeDistance2 * 0.125f + 1.0f);
     Real normalAgreement = cosine2 * cosine2;
-    Real agreement = depthAgreement * normalAgreement;
-    return agreement * agreement;
+    nearness = nearness * nearness;
+    return (normalAgreement * normalAgreement + cosine2 * 1e-4f + 1e-7f) * nearness * nearness;
 }
 
 // A texel's width at the receiver, inverse.

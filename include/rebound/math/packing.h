@@ -2,9 +2,9 @@
 // What a level's texels hold. Kernel language.
 //
 //   surface   xyz: normal, its length the texel's area over pi [m^2]; w: distance along the viewing axis at which the
-//             texel sends, the mean over everything it stands for [m]
-//   light     xyz: mean radiance of everything the texel stands for [W m^-2 sr^-1]; w: distance at which it receives,
-//             that of one surface, over the former, minus 1
+//             texel receives, that of one surface [m]
+//   light     xyz: mean radiance of everything the texel stands for [W m^-2 sr^-1]; w: the mean distance of all that,
+//             at which the texel sends, over the former, minus 1
 //
 // A texel without surface is zero: it neither sends nor receives.
 #ifndef REBOUND_PACKING_H
@@ -26,19 +26,18 @@ struct LevelTexel {
 // Half floats end there; brighter surfaces count as that bright. [W m^-2 sr^-1]
 const float maximumRadiance = 65504.0f;
 
-RB_FUNCTION Vec4 packSurface(LevelTexel t)
+RB_FUNCTION Vec4 packSurface(Surface s)
 {
-    Vec3 n = t.surface.normal * t.surface.areaOverPi;
-    return Vec4(n.x, n.y, n.z, t.senderZ);
+    Vec3 n = s.normal * s.areaOverPi;
+    return Vec4(n.x, n.y, n.z, s.z);
 }
 
 RB_FUNCTION Vec4 packLight(LevelTexel t)
 {
-    Real ratio = t.surface.z * reciprocal(max(t.senderZ, Real(1e-30f))) - 1.0f;
-    return Vec4(t.radiance.x, t.radiance.y, t.radiance.z, select(t.senderZ > 0.0f, ratio, Real(0.0f)));
+    Real ratio = t.senderZ * reciprocal(max(t.surface.z, Real(1e-30f))) - 1.0f;
+    return Vec4(t.radiance.x, t.radiance.y, t.radiance.z, select(t.surface.z > 0.0f, ratio, Real(0.0f)));
 }
 
-// The texel's surface at the place from which it sends.
 RB_FUNCTION Surface unpackSurface(Vec4 surface)
 {
     Surface s;
@@ -51,12 +50,17 @@ RB_FUNCTION Surface unpackSurface(Vec4 surface)
     return s;
 }
 
+// Distance along the viewing axis at which a texel sends [m].
+RB_FUNCTION Real senderDistance(Vec4 surface, Vec4 light)
+{
+    return surface.w * light.w + surface.w;
+}
+
 RB_FUNCTION LevelTexel unpackTexel(Vec4 surface, Vec4 light)
 {
     LevelTexel t;
     t.surface = unpackSurface(surface);
-    t.senderZ = surface.w;
-    t.surface.z = surface.w * light.w + surface.w;
+    t.senderZ = senderDistance(surface, light);
     t.radiance = Vec3(light.x, light.y, light.z);
     return t;
 }

@@ -15,7 +15,10 @@ RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Ve
     Real width = projection == orthographicProjection ? Real(texel) : candidate.z * texel;
     Real plane = dot(candidate.normal, voterPosition - position) * reciprocal(max(width, Real(1e-30f))) * 0.5f;
     Real depth = (voter.z - candidate.z) * inverseZ * 20.0f;
-    return reciprocal((Real(1.0f) + angle * angle) * (Real(1.0f) + plane * plane) * (Real(1.0f) + depth * depth));
+    Real product = reciprocal((Real(1.0f) + angle * angle * 0.125f) * (Real(1.0f) + plane * plane * 0.125f) *
+                              (Real(1.0f) + depth * depth * 0.125f));
+    product = product * product;
+    return product * product;
 }
 
 // The coarse texel that stands for four fine ones; empty texels do not count.
@@ -57,12 +60,13 @@ RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Ve
         Surface s = fine[i].surface;
         Real score = reciprocal(max(s.z, Real(1e-30f)));
         if (reduction == reduceVoting) {
-            // Itself and its two neighbours along the sides, each as heavy as its area.
-            Surface right = fine[i ^ 1].surface;
-            Surface below = fine[i ^ 2].surface;
-            score = s.areaOverPi +
-                    right.areaOverPi * resemblance(s, position[i], right, position[i ^ 1], texel, projection) +
-                    below.areaOverPi * resemblance(s, position[i], below, position[i ^ 2], texel, projection);
+            // All four vote, each as heavy as its area.
+            score = s.areaOverPi;
+            RB_UNROLL
+            for (int j = 1; j < 4; ++j) {
+                Surface voter = fine[i ^ j].surface;
+                score += voter.areaOverPi * resemblance(s, position[i], voter, position[i ^ j], texel, projection);
+            }
         }
         score = select(s.areaOverPi > 0.0f, score, Real(0.0f));
         Mask better = score > bestScore;

@@ -41,17 +41,15 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
         Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
         Real cosine = max(dot(n, scaled), Real(0.0f));
         Real cosine2 = cosine * cosine * reciprocal(max(dot(scaled, scaled), Real(1.2e-38f)));
-        Real agreement = bilateralWeight(distance * inverseWidth, cosine2);
+        Real inTexels = distance * inverseWidth;
+        Real agreement = select(surface.w > 0.0f, bilateralWeight(inTexels * inTexels, cosine2), Real(0.0f));
         Real bilinear = (offset.x == 1 ? fraction.x : Real(1.0f) - fraction.x) *
                         (offset.y == 1 ? fraction.y : Real(1.0f) - fraction.y);
-        // The last term decides only where no texel agrees: then those count that face alike. Such pixels, a few in a
-        // thousand, would else be black, and they are bright more often than not.
-        Real likeness = select(surface.w > 0.0f, cosine2 * 1e-5f + 1e-8f, Real(0.0f));
-        Real weight = bilinear * agreement + (bilinear + 0.02f) * likeness;
+        Real weight = bilinear * agreement;
         sum += Vec3(light.x, light.y, light.z) * weight;
         total += weight;
     }
-    return sum * reciprocal(max(total, Real(1e-20f)));
+    return sum * reciprocal(max(total, Real(1e-30f)));
 }
 
 #endif

@@ -28,7 +28,7 @@ RB_MAIN(pixel, k.extent)
         t.surface.areaOverPi = b.x;
         t.senderZ = b.y;
         t.radiance = Vec3(b.z, b.z, b.z);
-        LevelTexel u = unpackTexel(packSurface(t), packLight(t));
+        LevelTexel u = unpackTexel(packSurface(t.surface), packLight(t));
         Surface s = u.surface;
         r = Vec4(s.normal.x, s.normal.y, s.normal.z, s.z);
         if (mode == lightUnpackedArea) r = Vec4(s.areaOverPi, u.senderZ, u.radiance.x, u.radiance.z);
