@@ -24,8 +24,9 @@ Result<> checkImage(const Resource& r, const Image& image) {
     if (image.extent != r.extent)
         return invalidArgument(what + " is " + detail::toText(image.extent) + "; " + detail::toText(r.extent) +
                                " was expected");
-    if (image.channels < 1 || image.channels > 4)
-        return invalidArgument(what + " has " + std::to_string(image.channels) + " channels; 1 to 4 were expected");
+    if (image.channels < r.channels || image.channels > 4)
+        return invalidArgument(what + " has " + std::to_string(image.channels) + " channels; " +
+                               std::to_string(r.channels) + " to 4 were expected");
     const ptrdiff_t size = sizeOf(image.scalar);
     const bool aligned = reinterpret_cast<uintptr_t>(image.data) % size_t(size) == 0 &&
                          image.pixelStride % size == 0 && image.rowStride % size == 0 && image.channelStride % size == 0;

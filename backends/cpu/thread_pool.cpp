@@ -15,6 +15,7 @@ namespace rebound::cpu {
 
 struct ThreadPool::State {
     std::vector<std::thread> threads;
+    std::mutex calls; // held by the one run() at a time
     std::mutex mutex;
     std::condition_variable work, done;
     const std::function<void(int)>* body = nullptr;
@@ -72,6 +73,7 @@ int ThreadPool::threadCount() const { return int(state->threads.size()) + 1; }
 
 void ThreadPool::run(int count, const std::function<void(int)>& body) {
     if (count <= 0) return;
+    std::lock_guard oneAtATime(state->calls);
     if (state->threads.empty() || count == 1) {
         for (int i = 0; i < count; ++i) body(i);
         return;

@@ -24,8 +24,8 @@ enum class FarPlane { finite, infinite };
 enum class Projection { perspective, orthographic };
 enum class Handedness { right, left }; // of view space: the camera looks down -z, or +z
 enum class FirstRow {
-    top,    // row 0 has normalised device y = +1 (Direct3D, Metal; OpenEXR files)
-    bottom, // row 0 has normalised device y = -1 (OpenGL; Vulkan with a matrix that does not flip y)
+    top,    // row 0 has normalised device y = +1 (Direct3D, Metal, files; Vulkan with a viewport of negative height)
+    bottom, // row 0 has normalised device y = -1 (OpenGL; Vulkan with a viewport of positive height)
 };
 enum class NormalSpace { view, world };
 enum class NormalEncoding {

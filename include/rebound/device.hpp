@@ -4,7 +4,7 @@
 //   Result<Program> compile(const Plan&)               checks the plan, allocates what it needs, once
 //   MemoryUse memoryUse(const Plan&)                   what compile would allocate
 //   Result<> Program::record(..., FrameInputs<Image>)  one frame
-//   std::vector<PassTiming> Program::timings()         of the last frame, if asked for
+//   Program::timings()                                 a PassTiming a pass of the last frame, if asked for
 //
 // where Image is the device's handle to an image of the host.
 #pragma once

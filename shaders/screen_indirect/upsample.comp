@@ -18,6 +18,7 @@ RB_TEXTURE(3, startIndirect)
 RB_CONSTANTS(4, CameraConstants, camera)
 RB_CONSTANTS(5, UpsampleConstants, k)
 RB_OUTPUT(6, rgba16f, indirect)              // irradiance over pi [W m^-2 sr^-1]
+RB_INPUT(7, radiance)
 RB_MAIN(pixel, k.extent)
     Vec4 n = fetch(normal, pixel);
     Vec2 coordinate = pixelCenter(pixel);
@@ -25,6 +26,8 @@ RB_MAIN(pixel, k.extent)
     Vec3 position = viewPosition(viewRay(camera, coordinate), receiver.z, projection);
     Vec3 light = upsampled(startSurfaces, startIndirect, pixel, receiver, position, camera, k.extent.z, k.scale.y,
                            projection);
-    light = select(receiver.z > 0.0f, light, Vec3(0.0f));
+    // As the pixel sends nothing where its radiance is no number, it receives nothing.
+    Vec4 sent = fetch(radiance, pixel);
+    light = select(receiver.z > 0.0f && isFinite3(Vec3(sent.x, sent.y, sent.z)), light, Vec3(0.0f));
     store(indirect, pixel, Vec4(light.x, light.y, light.z, Real(1.0f)));
 RB_END_KERNEL

@@ -21,6 +21,7 @@ RB_CONSTANTS(5, UpsampleConstants, k)
 RB_INPUT(6, albedo)
 RB_INPUT(7, lit)
 RB_OUTPUT(8, rgba16f, composed)
+RB_INPUT(9, radiance)
 RB_MAIN(pixel, k.extent)
     Vec4 n = fetch(normal, pixel);
     Vec2 coordinate = pixelCenter(pixel);
@@ -28,7 +29,9 @@ RB_MAIN(pixel, k.extent)
     Vec3 position = viewPosition(viewRay(camera, coordinate), receiver.z, projection);
     Vec3 light = upsampled(startSurfaces, startIndirect, pixel, receiver, position, camera, k.extent.z, k.scale.y,
                            projection);
-    light = select(receiver.z > 0.0f, light, Vec3(0.0f));
+    // As the pixel sends nothing where its radiance is no number, it receives nothing.
+    Vec4 sent = fetch(radiance, pixel);
+    light = select(receiver.z > 0.0f && isFinite3(Vec3(sent.x, sent.y, sent.z)), light, Vec3(0.0f));
     Vec4 a = fetch(albedo, pixel);
     Vec4 l = fetch(lit, pixel);
     Vec3 sum = composition(Vec3(l.x, l.y, l.z), Vec3(a.x, a.y, a.z), light);

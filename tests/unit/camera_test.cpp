@@ -20,7 +20,7 @@ GBufferConventions deviceDepth() {
     return c;
 }
 
-void checkRefused(const char* part, const Camera& camera, const GBufferConventions& c) {
+void checkRefused(const std::string& part, const Camera& camera, const GBufferConventions& c) {
     const auto constants = cameraConstants(camera, c, extent);
     CAPTURE(part);
     REQUIRE_FALSE(constants);
@@ -29,7 +29,8 @@ void checkRefused(const char* part, const Camera& camera, const GBufferConventio
     CHECK(constants.error().message.find(part) != std::string::npos);
 }
 
-void checkSpoilt(const char* part, const GBufferConventions& c, const std::function<void(Camera&)>& spoil) {
+void checkSpoilt(const std::string& part, const GBufferConventions& c,
+                 const std::function<void(Camera&)>& spoil) {
     Camera camera{viewOf(c, glm::mat4(1.0f)), projectionOf(c, {})};
     REQUIRE(cameraConstants(camera, c, extent));
     spoil(camera);

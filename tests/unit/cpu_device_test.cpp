@@ -45,7 +45,7 @@ cpu::DeviceOptions withTestKernels() {
     return options;
 }
 
-void checkRefusedPlan(const char* part, ErrorCode code, const std::function<void(Plan&)>& spoil) {
+void checkRefusedPlan(const std::string& part, ErrorCode code, const std::function<void(Plan&)>& spoil) {
     Plan plan = copyPlan({20, 5});
     spoil(plan);
     const auto program = deviceFor(cpu::Isa::automatic).compile(plan);
@@ -56,7 +56,7 @@ void checkRefusedPlan(const char* part, ErrorCode code, const std::function<void
     CHECK(program.error().message.find(part) != std::string::npos);
 }
 
-void checkRefusedFrame(const char* part, const std::function<void(FrameInputs<cpu::Image>&)>& spoil) {
+void checkRefusedFrame(const std::string& part, const std::function<void(FrameInputs<cpu::Image>&)>& spoil) {
     auto program = deviceFor(cpu::Isa::automatic).compile(copyPlan({20, 5}));
     REQUIRE(program);
     CopyFrame frame({20, 5});
@@ -169,8 +169,9 @@ TEST_CASE("frames that a CPU device refuses, writing nothing") {
     checkRefusedFrame("grid is given twice", [](Inputs& i) { i.constants.push_back(i.constants[0]); });
     checkRefusedFrame("host has no data", [](Inputs& i) { i.images[0].image.data = nullptr; });
     checkRefusedFrame("20x4; 20x5 was expected", [](Inputs& i) { i.images[0].image.extent.height = 4; });
-    for (int channels : {0, -1, 5})
-        checkRefusedFrame("channels; 1 to 4", [&](Inputs& i) { i.images[0].image.channels = channels; });
+    for (int channels : {0, -1, 3, 5})
+        checkRefusedFrame("channels; 4 to 4 were expected",
+                          [&](Inputs& i) { i.images[0].image.channels = channels; });
     checkRefusedFrame("result has strides", [](Inputs& i) { i.images[1].image.pixelStride = 0; });
     checkRefusedFrame("result has strides", [](Inputs& i) { i.images[1].image.rowStride = 0; });
     checkRefusedFrame("multiples of 4", [](Inputs& i) { i.images[0].image.pixelStride = 6; });
@@ -332,17 +333,25 @@ TEST_CASE("plans too large for the machine end in an error") {
 #endif
 }
 
-TEST_CASE("programs of one device run from several threads in turn") {
-    auto program = deviceFor(cpu::Isa::automatic, 3).compile(copyPlan({64, 64}));
-    REQUIRE(program);
-    for (int i = 0; i < 4; ++i) {
-        CopyFrame frame({64, 64});
-        bool recorded = false;
-        std::thread thread([&] { recorded = bool(program->record(frame.inputs())); });
-        thread.join();
-        CHECK(recorded);
-        CHECK(frame.result.at(3, 2, 1) == frame.host.at(5, 3, 1));
-    }
+TEST_CASE("programs of one device run from several threads at once") {
+    const cpu::Device device = deviceFor(cpu::Isa::automatic, 3);
+    const Extent2D extent{64, 64};
+    std::atomic<int> right{0};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&] {
+            auto program = device.compile(copyPlan(extent));
+            CopyFrame frame(extent);
+            for (int run = 0; program && run < 20; ++run) {
+                frame.result = Picture(extent, 4, -1.0f);
+                if (program->record(frame.inputs()) && frame.result.at(3, 2, 1) == frame.host.at(5, 3, 1) &&
+                    frame.result.at(60, 62, 3) == frame.host.at(62, 63, 3))
+                    ++right;
+            }
+        });
+    for (std::thread& t : threads)
+        t.join();
+    CHECK(right == 80);
 }
 
 } // namespace rebound::test

@@ -62,7 +62,7 @@ void check(const AccessCase& c, TexelAt texelAt) {
                 for (int k = 0; k < 4; ++k) {
                     const float want = source.reach(at.x, at.y, k);
                     if (result.at(x, y, k) != want && ++wrong == 1)
-                        FAIL_CHECK("mode " << c.mode << " in " << cpu::name(isa) << ", source "
+                        FAIL_CHECK("mode " << c.mode << " in " << std::string(cpu::name(isa)) << ", source "
                                            << detail::toText(c.source) << ", grid " << detail::toText(c.grid)
                                            << ", offset " << c.offset.x << " " << c.offset.y << ", shift "
                                            << c.shift << ": texel " << x << " " << y << " " << k << " is "

@@ -27,7 +27,7 @@ Plan smallPlan() {
     return plan;
 }
 
-void checkRefused(const char* part, const std::function<void(Plan&)>& spoil) {
+void checkRefused(const std::string& part, const std::function<void(Plan&)>& spoil) {
     Plan plan = smallPlan();
     spoil(plan);
     const auto valid = validate(plan);

@@ -11,7 +11,7 @@
 namespace rebound {
 namespace {
 
-void checkRefused(const char* part, const std::function<void(ScreenIndirectSettings&)>& spoil) {
+void checkRefused(const std::string& part, const std::function<void(ScreenIndirectSettings&)>& spoil) {
     ScreenIndirectSettings s;
     s.resolution = {1280, 720};
     REQUIRE(planScreenIndirect(s));

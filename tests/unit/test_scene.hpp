@@ -41,7 +41,7 @@ inline Hit meetScene(glm::dvec3 origin, glm::dvec3 ray, double scale) {
     meet((-2.0 * scale - origin.x) / ray.x, {1, 0, 0}, {4, 1, 0.5});
     meet((-1.2 * scale - origin.y) / ray.y, {0, 1, 0}, {1, 1, 1});
     meet((-7.0 * scale - origin.z) / ray.z, {0, 0, 1}, {0.5, 3, 1});
-    const glm::dvec3 center = glm::dvec3(0.4, -0.5, -4.5) * scale;
+    const glm::dvec3 center = glm::dvec3(-0.6, -0.5, -4.5) * scale;
     const double radius = 0.7 * scale, a = glm::dot(ray, ray), b = glm::dot(ray, center - origin);
     const double c = glm::dot(center - origin, center - origin) - radius * radius, d = b * b - a * c;
     if (d > 0.0) {
@@ -51,6 +51,11 @@ inline Hit meetScene(glm::dvec3 origin, glm::dvec3 ray, double scale) {
     return hit;
 }
 
+// How the camera is turned in the scene: to the left and down, so that it sees walls and floor in either
+// projection.
+inline const glm::dmat4 gaze =
+    glm::rotate(glm::rotate(glm::dmat4(1.0), 0.25, glm::dvec3(0, 1, 0)), -0.15, glm::dvec3(1, 0, 0));
+
 // The scene's G-buffer. world: where the scene stands in the world; the camera moves with it, so that the
 // picture stays.
 inline Frame sceneFrame(const GBufferConventions& c, Extent2D extent, glm::mat4 world = glm::mat4(1.0f),
@@ -59,8 +64,8 @@ inline Frame sceneFrame(const GBufferConventions& c, Extent2D extent, glm::mat4 
     lens.nearDistance *= scale;
     lens.farDistance *= scale;
     if (c.projection == Projection::orthographic) {
-        lens.halfWidth *= 3.5 * scale;
-        lens.halfHeight *= 3.5 * scale;
+        lens.halfWidth *= 1.8 * scale;
+        lens.halfHeight *= 1.8 * scale;
     }
     lens.flipY = c.firstRow == FirstRow::bottom; // the same picture in memory
     Frame f;
@@ -68,7 +73,7 @@ inline Frame sceneFrame(const GBufferConventions& c, Extent2D extent, glm::mat4 
     f.settings.conventions = c;
     f.settings.ringRadius = 12.0f;
     f.settings.samplesPerLevel = 32;
-    f.camera = {viewOf(c, glm::inverse(world)), projectionOf(c, lens)};
+    f.camera = {viewOf(c, glm::mat4(glm::inverse(glm::dmat4(world) * gaze))), projectionOf(c, lens)};
     f.depth = Picture(extent, 1,
                       c.depthEncoding == DepthEncoding::device && c.depthDirection == DepthDirection::forward
                           ? 1.0f
@@ -80,8 +85,10 @@ inline Frame sceneFrame(const GBufferConventions& c, Extent2D extent, glm::mat4 
                                  1.0 - (y + 0.5) / extent.height * 2.0 - lens.shiftY);
             const glm::dvec2 at(ndc.x * lens.halfWidth, ndc.y * lens.halfHeight);
             const bool perspective = c.projection == Projection::perspective;
-            const Hit hit =
-                perspective ? meetScene({0, 0, 0}, {at, -1}, scale) : meetScene({at, 0}, {0, 0, -1}, scale);
+            const glm::dmat3 turn(gaze);
+            const Hit hit = perspective
+                                ? meetScene({0, 0, 0}, turn * glm::dvec3(at, -1), scale)
+                                : meetScene(turn * glm::dvec3(at, 0), turn * glm::dvec3(0, 0, -1), scale);
             for (int k = 0; k < 3; ++k) {
                 f.albedo.at(x, y, k) = 0.2f + 0.1f * float((x + k) % 5);
                 f.lit.at(x, y, k) = 0.01f * float((3 * x + 7 * y + k) % 100);

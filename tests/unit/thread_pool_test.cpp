@@ -7,6 +7,7 @@
 #include <atomic>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace rebound::cpu {
@@ -31,6 +32,28 @@ TEST_CASE("a thread pool hands what its body wrote to the caller, run after run"
     for (int run = 0; run < 2000; ++run)
         pool.run(int(values.size()), [&](int i) { ++values[size_t(i)]; });
     CHECK(std::all_of(values.begin(), values.end(), [](int v) { return v == 2000; }));
+}
+
+TEST_CASE("a thread pool's calls from several threads take turns") {
+    ThreadPool pool(3);
+    std::atomic<int> inside{0}, calls{0}, overlaps{0};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+            for (int run = 0; run < 100; ++run)
+                pool.run(8, [&](int) {
+                    // Bodies of one caller alone: each adds its own number, and no other's may be there.
+                    const int own = 1 << (8 * t);
+                    if (((inside += own) & ~(0xff << (8 * t))) != 0)
+                        ++overlaps;
+                    inside -= own;
+                    ++calls;
+                });
+        });
+    for (std::thread& t : threads)
+        t.join();
+    CHECK(calls == 3200);
+    CHECK(overlaps == 0);
 }
 
 TEST_CASE("a thread pool of 0 threads has one a core") {

@@ -4,6 +4,7 @@
 #include "rebound/math/rings.hpp"
 
 #include <array>
+#include <cstdio>
 
 namespace rebound {
 namespace detail {
@@ -20,10 +21,16 @@ inline Extent2D reducedExtent(Extent2D e, int shift) {
     return {(e.width + round) >> shift, (e.height + round) >> shift};
 }
 
-template <class T>
-std::string rangeMessage(const char* setting, T value, T low, T high) {
-    return std::string("settings.") + setting + " is " + std::to_string(value) + "; " + std::to_string(low) + " to " +
-           std::to_string(high) + " was expected";
+// A number as people write it: six significant digits, no zeros behind them.
+inline std::string toText(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", value);
+    return text.data();
+}
+
+inline std::string rangeMessage(const char* setting, double value, double low, double high) {
+    return std::string("settings.") + setting + " is " + toText(value) + "; " + toText(low) + " to " + toText(high) +
+           " was expected";
 }
 
 inline Result<> validate(const ScreenIndirectSettings& s) {
@@ -226,11 +233,11 @@ private:
         Pass upsample{"upsample", "screen_indirect/upsample", {projection()}, {}, full};
         upsample.bindings = {{0, depth}, {1, normal}, {2, start.surface}, {3, result}, {4, camera}, {5, constants}};
         if (settings.writeIndirect) {
-            upsample.bindings.push_back({6, indirect, Access::write});
+            upsample.bindings.insert(upsample.bindings.end(), {{6, indirect, Access::write}, {7, radiance}});
         } else {
             upsample.label = "upsample and compose";
             upsample.kernel = "screen_indirect/upsample_compose";
-            upsample.bindings.insert(upsample.bindings.end(), {{6, albedo}, {7, lit}, {8, composed, Access::write}});
+            upsample.bindings.insert(upsample.bindings.end(), {{6, albedo}, {7, lit}, {8, composed, Access::write}, {9, radiance}});
         }
         plan.passes.push_back(upsample);
         if (!settings.writeIndirect || !settings.compose) return;

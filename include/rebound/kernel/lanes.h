@@ -39,7 +39,7 @@ struct Real {
     friend Real operator-(Real a, Real b) { return {a.batch - b.batch}; }
     friend Real operator*(Real a, Real b) { return {a.batch * b.batch}; }
     friend Real operator/(Real a, Real b) { return {a.batch / b.batch}; }
-    friend Real operator-(Real a) { return {-a.batch}; }
+    friend Real operator-(Real a) { return {RealBatch(-0.0f) - a.batch}; } // xsimd's makes +0 of +0
     Real& operator+=(Real b) { return *this = *this + b; }
     Real& operator-=(Real b) { return *this = *this - b; }
     Real& operator*=(Real b) { return *this = *this * b; }

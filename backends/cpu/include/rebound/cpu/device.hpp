@@ -17,7 +17,7 @@ enum class Scalar { float32, float16 };
 struct Image {
     void* data = nullptr;       // pixel 0, 0 of channel 0
     Extent2D extent;
-    int channels = 0;           // 1 to 4; absent channels read as 0, and writes to them are dropped
+    int channels = 0;           // 1 to 4; at least as many as the plan's resource has in use
     Scalar scalar = Scalar::float32;
     ptrdiff_t pixelStride = 0;  // from one pixel to its right neighbour [bytes]
     ptrdiff_t rowStride = 0;    // from one row to the next [bytes]
@@ -60,7 +60,8 @@ private:
     std::shared_ptr<const Shared> shared;
 };
 
-// A compiled plan. Keeps its device's threads alive; not to be recorded from two threads at once.
+// A compiled plan. Keeps its device's threads alive. One program is not to be recorded from two threads at once; several
+// programs of one device may be, and take turns at its threads pass by pass.
 class Program {
 public:
     // Runs one frame, and returns when it is done. Fails, and writes nothing, where an image or constant of the plan is

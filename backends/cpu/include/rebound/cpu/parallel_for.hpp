@@ -10,7 +10,7 @@ namespace rebound::cpu {
 // throw nothing.
 using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
 
-// Threads that wait for work between calls. Not to be called from within its own body, nor from two threads at once.
+// Threads that wait for work between calls. Calls from several threads take turns; none may come from within a body.
 class ThreadPool {
 public:
     // threads: 1 to 1024, counting the one that calls run(); 0: one a core. Where the system refuses to start as many,
