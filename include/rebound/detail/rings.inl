@@ -16,6 +16,11 @@ struct RingPoint {
     double density; // weight in Lloyd's relaxation
 };
 
+inline double outerRadius(const Ring& ring, Extent2D level) {
+    if (!ring.isOpen) return ring.radius;
+    return std::min(std::hypot(double(level.width), double(level.height)), std::max(openRingReach, double(ring.radius)));
+}
+
 // Wanted density of samples at a distance, relative.
 inline double sampleDensity(double distance, bool isDisc) {
     return std::pow(std::max(distance, 1.0), isDisc ? -1.3 : -1.0);
@@ -172,7 +177,7 @@ inline std::vector<RingPoint> relaxationPoints(const std::vector<RingTexel>& tex
 } // namespace detail
 
 inline std::vector<RingTexel> ringTexels(const Ring& ring, Extent2D level) {
-    const double outer = ring.isOpen ? std::hypot(double(level.width), double(level.height)) : ring.radius;
+    const double outer = detail::outerRadius(ring, level);
     const double outer2 = outer * outer + 1e-6, radius2 = double(ring.radius) * ring.radius + 1e-6;
     const int reachX = std::min(int(outer), level.width - 1), reachY = std::min(int(outer), level.height - 1);
     std::vector<RingTexel> texels;
@@ -194,8 +199,7 @@ inline std::vector<RingTexel> ringTexels(const Ring& ring, Extent2D level) {
 inline std::vector<RingTexel> ringPattern(const Ring& ring, int samples, Extent2D level) {
     const std::vector<RingTexel> texels = ringTexels(ring, level);
     if (int64_t(texels.size()) <= int64_t(samples)) return texels;
-    const double outer = ring.isOpen ? std::hypot(double(level.width), double(level.height)) : ring.radius;
-    std::vector<glm::dvec2> sites = detail::spiralSites(ring, outer, samples);
+    std::vector<glm::dvec2> sites = detail::spiralSites(ring, detail::outerRadius(ring, level), samples);
     detail::relaxSites(detail::relaxationPoints(texels, ring, level), sites, ring.isDisc);
 
     std::vector<detail::RingPoint> points;

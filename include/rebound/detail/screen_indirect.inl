@@ -294,9 +294,11 @@ inline Result<ScreenIndirectSettings> screenIndirectPreset(std::string_view name
 }
 
 inline float coveringRingRadius(const ScreenIndirectSettings& s) {
-    const Extent2D e = detail::reducedExtent(s.resolution, detail::startShift(s.start));
+    const Extent2D full{std::clamp(s.resolution.width, 1, maximumExtent), std::clamp(s.resolution.height, 1, maximumExtent)};
+    const Extent2D e = detail::reducedExtent(full, detail::startShift(s.start));
     const float diagonal = std::hypot(float(e.width), float(e.height));
-    return std::clamp(std::ceil(diagonal / float(1 << (std::max(s.levels, 1) - 1))), 1.0f, 1024.0f);
+    const int levels = std::clamp(s.levels, 1, 8);
+    return std::clamp(std::ceil(diagonal / float(1 << (levels - 1))), 1.0f, 1024.0f);
 }
 
 inline Result<Plan> planScreenIndirect(const ScreenIndirectSettings& settings) {

@@ -9,7 +9,8 @@
 //   cosine2         square of the cosine between the two normals, 0 where they face apart
 RB_FUNCTION Real bilateralWeight(Real planeDistance2, Real cosine2)
 {
-    Real nearness = reciprocal(planeDistance2 * 0.125f + 1.0f);
+    // Beyond that the reciprocal would be of infinity.
+    Real nearness = reciprocal(min(planeDistance2 * 0.125f, Real(1e30f)) + 1.0f);
     Real normalAgreement = cosine2 * cosine2;
     nearness = nearness * nearness;
     return (normalAgreement * normalAgreement + cosine2 * 1e-4f + 1e-7f) * nearness * nearness;

@@ -9,16 +9,16 @@ RB_FUNCTION Mask isFinite3(Vec3 v)
     return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
 }
 
-// The surface behind stored depth and normal; empty where depth says so, where it is not in front of the eye, and where
-// depth or normal is not a number or the normal has no direction.
+// The surface behind stored depth and normal; empty where depth says so, where it is not in front of the eye by 1e-6 to
+// 1e7 m, and where depth or normal is not a number or the normal has no direction.
 RB_FUNCTION Surface surfaceOf(CameraConstants camera, Vec2 pixelCoordinate, Real storedDepth, Vec3 storedNormal,
                               float minimumCosine, int projection)
 {
     Real z = linearDepth(camera, storedDepth);
     Vec3 n = viewNormal(camera, storedNormal);
     Real n2 = dot(n, n);
-    // A normal that is off by more than a factor of a thousand is no normal; z^3 must stay a float.
-    Mask valid = isFinite(storedDepth) && isFinite(z) && z > 0.0f && z < 1e12f && !(storedDepth == camera.empty.x) &&
+    // A normal that is off by more than a factor of a thousand is no normal; squares of areas must stay floats.
+    Mask valid = isFinite(storedDepth) && isFinite(z) && z > 1e-6f && z < 1e7f && !(storedDepth == camera.empty.x) &&
                  isFinite(n2) && n2 > 1e-6f && n2 < 1e6f;
     z = select(valid, z, Real(1.0f));
     n = select(valid, n * inverseSqrt(select(valid, n2, Real(1.0f))), Vec3(0.0f, 0.0f, -1.0f));

@@ -4,8 +4,9 @@
 #ifndef REBOUND_REDUCTION_H
 #define REBOUND_REDUCTION_H
 
-// How far two texels lie on one surface, 0 to 1: Lorentzians of 1 - cos of the angle between their normals, of the
-// voter's distance from the candidate's tangent plane in texels, and of the relative difference in depth.
+// How far two texels lie on one surface, 0 to 1: nearly Gaussians of 1 - cos of the angle between their normals (of
+// standard deviation 0.5), of the voter's distance from the candidate's tangent plane (2 texels), and of the relative
+// difference in depth (0.05).
 //   texel   width of a texel at z = 1, or, orthographic, everywhere                         [m]
 RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition, float texel,
                              int projection)
@@ -15,8 +16,9 @@ RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Ve
     Real width = projection == orthographicProjection ? Real(texel) : candidate.z * texel;
     Real plane = dot(candidate.normal, voterPosition - position) * reciprocal(max(width, Real(1e-30f))) * 0.5f;
     Real depth = (voter.z - candidate.z) * inverseZ * 20.0f;
-    Real product = reciprocal((Real(1.0f) + angle * angle * 0.125f) * (Real(1.0f) + plane * plane * 0.125f) *
-                              (Real(1.0f) + depth * depth * 0.125f));
+    Real apart = (Real(1.0f) + angle * angle * 0.125f) * (Real(1.0f) + plane * plane * 0.125f) *
+                 (Real(1.0f) + depth * depth * 0.125f);
+    Real product = reciprocal(min(apart, Real(1e30f)));
     product = product * product;
     return product * product;
 }
@@ -69,7 +71,8 @@ RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Ve
             }
         }
         score = select(s.areaOverPi > 0.0f, score, Real(0.0f));
-        Mask better = score > bestScore;
+        // By a margin: on a flat wall all four are alike, and the last bits of depth must not choose.
+        Mask better = score > bestScore * 1.001f;
         chosen.normal = select(better, s.normal, chosen.normal);
         chosen.z = select(better, s.z, chosen.z);
         chosenPosition = select(better, position[i], chosenPosition);

@@ -25,6 +25,10 @@ struct Ring {
     bool isOpen = false;  // no outer end but the screen's: for the coarsest level
 };
 
+// An open ring's outer radius is the level's diagonal, but no more than this or its radius [texels]: with few levels at
+// high resolutions a ring would otherwise hold a thousand million texels.
+inline constexpr double openRingReach = 1024.0;
+
 // Every texel of a ring, apart from the receiver itself. On the inner edge a texel weighs the share of it that the finer
 // level leaves out, averaged over the four places in a texel where a finer receiver may lie. Texels that lie outside the
 // level for every receiver are left out.

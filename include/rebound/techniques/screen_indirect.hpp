@@ -65,8 +65,8 @@ float coveringRingRadius(const ScreenIndirectSettings&);
 // Outputs indirect  3 channels: irradiance over pi of light that met one other surface (writeIndirect only)
 //         composed  3 channels: lit + albedo * indirect (compose only)
 //
-// A pixel whose depth, normal or radiance is not a number, or that has no surface, neither sends nor receives: its
-// indirect is 0 and its composed is lit.
+// A pixel whose depth, normal or radiance is not a number, or that has no surface at 1e-6 to 1e7 m, neither sends nor
+// receives: its indirect is 0 and its composed is lit.
 Result<Plan> planScreenIndirect(const ScreenIndirectSettings&);
 
 // One frame's camera and images; those that the settings leave out stay untouched.
