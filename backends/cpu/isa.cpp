@@ -3,10 +3,22 @@
 
 #include <string>
 
+#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
+#include <cpuid.h>
+#endif
+
 namespace rebound::cpu {
 namespace {
 
 constexpr Isa everyIsa[] = {Isa::scalar, Isa::baseline, Isa::avx2, Isa::avx512};
+
+#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
+// Clang 14's __builtin_cpu_supports does not know F16C. Its registers are AVX's, whose support implies the system's.
+bool hasF16c() {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+}
+#endif
 
 // Whether processor and operating system support the instructions.
 bool processorRuns(Isa isa) {
@@ -16,7 +28,7 @@ bool processorRuns(Isa isa) {
     case Isa::baseline: return true;
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
     case Isa::avx2:
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && hasF16c();
     case Isa::avx512:
         return processorRuns(Isa::avx2) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
                __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
