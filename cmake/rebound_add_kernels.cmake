@@ -19,6 +19,12 @@ macro(rebound_kernel_options)
         # GCC 12 takes the deliberately undefined operands of its own AVX-512 intrinsics for a mistake (GCC bug 105593).
         list(APPEND kernel_options -Wno-maybe-uninitialized -Wno-uninitialized)
     endif()
+    if(REBOUND_SANITIZE)
+        # With every arithmetic operation checked and described, unrolled kernels would take minutes to compile; their
+        # memory accesses are what can go wrong.
+        list(TRANSFORM kernel_options REPLACE "-O3" "-O1")
+        list(APPEND kernel_options -g0 -fno-sanitize=undefined)
+    endif()
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
         set(isas scalar baseline avx2 avx512)
         set(isa_options_avx2 -mavx2 -mfma -mf16c)
