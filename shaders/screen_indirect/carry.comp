@@ -4,6 +4,7 @@
 #include "rebound/techniques/screen_indirect_constants.h"
 #include "rebound/math/packing.h"
 #include "rebound/math/view_position.h"
+#include "rebound/math/gbuffer.h"
 #include "rebound/math/bilateral.h"
 #include "rebound/math/upsample.h"
 
@@ -18,9 +19,6 @@ RB_CONSTANTS(4, CameraConstants, camera)
 RB_CONSTANTS(5, UpsampleConstants, k)
 RB_MAIN(pixel, k.extent)
     Surface receiver = unpackSurface(fetch(surfaces, pixel));
-    Vec3 position = viewPosition(viewRay(camera, pixelCenter(pixel) * k.scale.x), receiver.z, projection);
-    Vec3 light = upsampled(coarseSurfaces, coarseIndirect, pixel, receiver, position, camera, k.extent.z, k.scale.y,
-                           projection);
-    light = select(receiver.z > 0.0f, light, Vec3(0.0f));
+    Vec3 light = receivedByTexel(coarseSurfaces, coarseIndirect, pixel, receiver, camera, k, projection);
     store(combined, pixel, Vec4(light.x, light.y, light.z, Real(0.0f)));
 RB_END_KERNEL

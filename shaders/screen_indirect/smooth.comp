@@ -18,7 +18,7 @@ RB_MAIN(pixel, k.extent)
     Surface receiver = unpackSurface(fetch(surfaces, pixel));
     Vec2 ray = viewRay(camera, pixelCenter(pixel) * k.scale.x);
     Vec3 position = viewPosition(ray, receiver.z, projection);
-    Real inverseWidth = inverseTexelWidth(receiver.z, k.scale.x * max(abs(camera.ray.x), abs(camera.ray.y)), projection);
+    Real inverseWidth = inverseTexelWidth(camera, receiver.z, k.scale.x, projection);
     Vec4 own = fetch(indirect, pixel);
     Vec3 sum = Vec3(own.x, own.y, own.z) * 4.0f;
     Real total = Real(4.0f);

@@ -20,14 +20,7 @@ RB_CONSTANTS(5, UpsampleConstants, k)
 RB_OUTPUT(6, rgba16f, indirect)              // irradiance over pi [W m^-2 sr^-1]
 RB_INPUT(7, radiance)
 RB_MAIN(pixel, k.extent)
-    Vec4 n = fetch(normal, pixel);
-    Vec2 coordinate = pixelCenter(pixel);
-    Surface receiver = surfaceOf(camera, coordinate, fetch(depth, pixel).x, Vec3(n.x, n.y, n.z), 1.0f, projection);
-    Vec3 position = viewPosition(viewRay(camera, coordinate), receiver.z, projection);
-    Vec3 light = upsampled(startSurfaces, startIndirect, pixel, receiver, position, camera, k.extent.z, k.scale.y,
-                           projection);
-    // As the pixel sends nothing where its radiance is no number, it receives nothing.
-    Vec4 sent = fetch(radiance, pixel);
-    light = select(receiver.z > 0.0f && isFinite3(Vec3(sent.x, sent.y, sent.z)), light, Vec3(0.0f));
+    Vec3 light = receivedByPixel(startSurfaces, startIndirect, pixel, fetch(depth, pixel), fetch(normal, pixel),
+                                 fetch(radiance, pixel), camera, k, projection);
     store(indirect, pixel, Vec4(light.x, light.y, light.z, Real(1.0f)));
 RB_END_KERNEL

@@ -23,15 +23,8 @@ RB_INPUT(7, lit)
 RB_OUTPUT(8, rgba16f, composed)
 RB_INPUT(9, radiance)
 RB_MAIN(pixel, k.extent)
-    Vec4 n = fetch(normal, pixel);
-    Vec2 coordinate = pixelCenter(pixel);
-    Surface receiver = surfaceOf(camera, coordinate, fetch(depth, pixel).x, Vec3(n.x, n.y, n.z), 1.0f, projection);
-    Vec3 position = viewPosition(viewRay(camera, coordinate), receiver.z, projection);
-    Vec3 light = upsampled(startSurfaces, startIndirect, pixel, receiver, position, camera, k.extent.z, k.scale.y,
-                           projection);
-    // As the pixel sends nothing where its radiance is no number, it receives nothing.
-    Vec4 sent = fetch(radiance, pixel);
-    light = select(receiver.z > 0.0f && isFinite3(Vec3(sent.x, sent.y, sent.z)), light, Vec3(0.0f));
+    Vec3 light = receivedByPixel(startSurfaces, startIndirect, pixel, fetch(depth, pixel), fetch(normal, pixel),
+                                 fetch(radiance, pixel), camera, k, projection);
     Vec4 a = fetch(albedo, pixel);
     Vec4 l = fetch(lit, pixel);
     Vec3 sum = composition(Vec3(l.x, l.y, l.z), Vec3(a.x, a.y, a.z), light);

@@ -84,7 +84,7 @@ private:
         return settings.conventions.projection == Projection::orthographic ? orthographicProjection
                                                                            : perspectiveProjection;
     }
-    // Level 0's shift counts from full resolution: a level's first and last one that take part.
+    // The levels that gather: all, or the one that is shown alone.
     int coarsest() const { return settings.onlyLevel.value_or(settings.levels - 1); }
     int finestGathered() const { return settings.onlyLevel.value_or(0); }
 

@@ -16,12 +16,4 @@ RB_FUNCTION Real bilateralWeight(Real planeDistance2, Real cosine2)
     return (normalAgreement * normalAgreement + cosine2 * 1e-4f + 1e-7f) * nearness * nearness;
 }
 
-// A texel's width at the receiver, inverse.
-//   texel   width at z = 1, or, orthographic, everywhere                                    [m]
-RB_FUNCTION Real inverseTexelWidth(Real z, float texel, int projection)
-{
-    if (projection == orthographicProjection) return Real(1.0f / texel);
-    return reciprocal(max(z * texel, Real(1e-30f)));
-}
-
 #endif

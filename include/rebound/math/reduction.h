@@ -7,14 +7,12 @@
 // How far two texels lie on one surface, 0 to 1: nearly Gaussians of 1 - cos of the angle between their normals (of
 // standard deviation 0.5), of the voter's distance from the candidate's tangent plane (2 texels), and of the relative
 // difference in depth (0.05).
-//   texel   width of a texel at z = 1, or, orthographic, everywhere                         [m]
-RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition, float texel,
-                             int projection)
+//   inverseWidth   of a texel at the candidate                                              [m^-1]
+RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition, Real inverseWidth)
 {
     Real inverseZ = reciprocal(max(candidate.z, Real(1e-30f)));
     Real angle = (Real(1.0f) - dot(candidate.normal, voter.normal)) * 2.0f;
-    Real width = projection == orthographicProjection ? Real(texel) : candidate.z * texel;
-    Real plane = dot(candidate.normal, voterPosition - position) * reciprocal(max(width, Real(1e-30f))) * 0.5f;
+    Real plane = dot(candidate.normal, voterPosition - position) * inverseWidth * 0.5f;
     Real depth = (voter.z - candidate.z) * inverseZ * 20.0f;
     Real apart = (Real(1.0f) + angle * angle * 0.125f) * (Real(1.0f) + plane * plane * 0.125f) *
                  (Real(1.0f) + depth * depth * 0.125f);
@@ -53,7 +51,6 @@ RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Ve
     coarse.senderZ *= inverseArea;
     coarse.radiance = coarse.radiance * inverseArea;
 
-    float texel = fineScale * max(abs(camera.ray.x), abs(camera.ray.y));
     Surface chosen = fine[0].surface;
     Vec3 chosenPosition = position[0];
     Real bestScore = Real(0.0f);
@@ -63,11 +60,12 @@ RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Ve
         Real score = reciprocal(max(s.z, Real(1e-30f)));
         if (reduction == reduceVoting) {
             // All four vote, each as heavy as its area.
+            Real inverseWidth = inverseTexelWidth(camera, s.z, fineScale, projection);
             score = s.areaOverPi;
             RB_UNROLL
             for (int j = 1; j < 4; ++j) {
                 Surface voter = fine[i ^ j].surface;
-                score += voter.areaOverPi * resemblance(s, position[i], voter, position[i ^ j], texel, projection);
+                score += voter.areaOverPi * resemblance(s, position[i], voter, position[i ^ j], inverseWidth);
             }
         }
         score = select(s.areaOverPi > 0.0f, score, Real(0.0f));

@@ -21,7 +21,7 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
     Vec2 at = pixelCenter(pixel) * toCoarse - Vec2(0.5f);
     Vec2 base = Vec2(floor(at.x), floor(at.y));
     Vec2 fraction = at - base;
-    Real inverseWidth = inverseTexelWidth(receiver.z, coarseScale * max(abs(camera.ray.x), abs(camera.ray.y)), projection);
+    Real inverseWidth = inverseTexelWidth(camera, receiver.z, coarseScale, projection);
     // A coarse texel's distance from the receiver's plane is n.p - n.x with p = (ray z, z): the parts of n.p along the
     // two columns and rows of texels serve all four.
     Vec3 n = receiver.normal;
@@ -50,6 +50,29 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
         total += weight;
     }
     return sum * reciprocal(max(total, Real(1e-30f)));
+}
+
+// What coarser levels hold for a texel of a level; nothing where it has no surface.
+RB_FUNCTION Vec3 receivedByTexel(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUMENT coarseLight, Pixel pixel,
+                                 Surface receiver, CameraConstants camera, UpsampleConstants k, int projection)
+{
+    Vec3 position = viewPosition(viewRay(camera, pixelCenter(pixel) * k.scale.x), receiver.z, projection);
+    Vec3 light = upsampled(coarseSurfaces, coarseLight, pixel, receiver, position, camera, k.extent.z, k.scale.y,
+                           projection);
+    return select(receiver.z > 0.0f, light, Vec3(0.0f));
+}
+
+// What the start resolution holds for a pixel of the host's; nothing where it has no surface, and, as such a pixel sends
+// nothing, where its radiance is no number.
+RB_FUNCTION Vec3 receivedByPixel(RB_TEXTURE_ARGUMENT startSurfaces, RB_TEXTURE_ARGUMENT startLight, Pixel pixel,
+                                 Vec4 storedDepth, Vec4 storedNormal, Vec4 radiance, CameraConstants camera,
+                                 UpsampleConstants k, int projection)
+{
+    Vec3 normal = Vec3(storedNormal.x, storedNormal.y, storedNormal.z);
+    // Areas do not matter here, so neither does their smallest cosine.
+    Surface receiver = surfaceOf(camera, pixelCenter(pixel), storedDepth.x, normal, 1.0f, projection);
+    Vec3 light = receivedByTexel(startSurfaces, startLight, pixel, receiver, camera, k, projection);
+    return select(isFinite3(Vec3(radiance.x, radiance.y, radiance.z)), light, Vec3(0.0f));
 }
 
 #endif

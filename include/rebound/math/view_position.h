@@ -18,6 +18,15 @@ RB_FUNCTION Vec3 viewPosition(Vec2 ray, Real z, int projection)
     return Vec3(ray.x * z, ray.y * z, z);
 }
 
+// The inverse of a texel's width at a distance z along the viewing axis [m^-1].
+//   scale   full-resolution pixels a texel
+RB_FUNCTION Real inverseTexelWidth(CameraConstants camera, Real z, float scale, int projection)
+{
+    float texel = scale * max(abs(camera.ray.x), abs(camera.ray.y));
+    if (projection == orthographicProjection) return Real(1.0f / texel);
+    return reciprocal(max(z * texel, Real(1e-30f)));
+}
+
 // Distance along the viewing axis of a stored depth [m].
 RB_FUNCTION Real linearDepth(CameraConstants camera, Real stored)
 {
