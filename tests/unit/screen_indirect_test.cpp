@@ -168,11 +168,11 @@ TEST_CASE("a pixel that is no surface or no number is as if it were empty, for a
             Frame f = cornerFrame(start, 3), without = f;
             empty(without, px, py);
             const Outputs expected = render(without, fast());
-            for (const auto& [what, spoil] : spoils) {
+            for (const auto& spoiling : spoils) {
                 Frame spoilt = f;
-                spoil(spoilt, px, py);
+                spoiling.second(spoilt, px, py);
                 const Outputs out = render(spoilt, fast());
-                CAPTURE(what);
+                CAPTURE(spoiling.first);
                 bool same = true;
                 for (int y = 0; y < extent.height; ++y)
                     for (int x = 0; x < extent.width; ++x)
