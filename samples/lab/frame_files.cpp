@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "lab/camera_json.hpp"
+#include "lab/file_bytes.hpp"
 #include "lab/frame.hpp"
 #include "lab/image_files.hpp"
+#include "lab/input_error.hpp"
+#include "lab/json_text.hpp"
 #include "lab/scene_files.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <new>
 
 namespace rebound::lab {
@@ -15,6 +17,8 @@ namespace rebound::lab {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr size_t largestMetaFile = size_t(1) << 24; // [bytes]
 
 // Grey becomes three equal channels, and alpha is dropped.
 Image toThreeChannels(const Image& image) {
@@ -46,20 +50,16 @@ Result<> readDepth(const fs::path& file, Image& output) {
 }
 
 Result<CameraView> readMetaCamera(const fs::path& file) {
-    std::error_code ignored;
-    std::ifstream stream(file);
-    if (!stream || !fs::is_regular_file(file, ignored))
-        return Error{ErrorCode::notFound,
-                     "cannot read " + file.string() + ", which describes the camera; expected a JSON file"};
-    nlohmann::json meta;
-    try {
-        meta = nlohmann::json::parse(stream);
-    } catch (const nlohmann::json::exception& failure) {
-        return Error{ErrorCode::invalidData, file.string() + " is not JSON: " + failure.what()};
-    }
-    if (!meta.is_object() || !meta.contains("camera"))
-        return Error{ErrorCode::invalidData, file.string() + ": \"camera\" is missing"};
-    return cameraFromJson(meta["camera"], file.string() + ": camera");
+    const auto meta = guardInput(file, [&] {
+        const std::vector<uint8_t> bytes = readFileBytes(file, largestMetaFile, file);
+        auto root = parseJsonObject({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "a frame's description");
+        if (!root.contains("camera"))
+            refuse("\"camera\" is missing");
+        return root;
+    });
+    if (!meta)
+        return meta.error();
+    return cameraFromJson((*meta)["camera"], file.string() + ": camera");
 }
 
 Result<CameraView> readCamera(const fs::path& folder, const fs::path& viewFile, const std::string& name) {

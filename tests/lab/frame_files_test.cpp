@@ -123,6 +123,8 @@ TEST_CASE("what is wrong with a stored frame is named") {
         writeText(folder / "meta.json", bad);
         CHECK(names(folder, "meta.json"));
     }
+    writeText(folder / "meta.json", R"({"camera": )" + std::string(100000, '[') + std::string(100000, ']') + "}");
+    CHECK(names(folder, "nested deeper"));
     CHECK_FALSE(readFrame(folder / "nowhere"));
     CHECK_FALSE(readFrame(folder / "depth.exr"));
 }
