@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "frame_pipeline.hpp"
 
+#include "lab/camera_matrices.hpp"
 #include "options.hpp"
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace rebound::cli {
 
 namespace {
-
-// Depth is planar, so that the planes that clip do not matter; the far one may be infinite.
-glm::dmat4 projectionOf(const lab::CameraView& view, double aspect) {
-    if (view.orthographic) {
-        const double top = double(view.orthographicHeight) / 2.0;
-        return glm::orthoRH_ZO(-top * aspect, top * aspect, -top, top, double(view.nearPlane),
-                               double(view.farPlane));
-    }
-    return glm::infinitePerspectiveRH(double(view.verticalFieldOfView), aspect, double(view.nearPlane));
-}
 
 // The technique takes radiance up to half's largest value. Returns the number of pixels that were above.
 size_t limitToRange(lab::Image& image) {
@@ -35,14 +23,6 @@ size_t limitToRange(lab::Image& image) {
 }
 
 } // namespace
-
-Camera cameraOf(const lab::CameraView& view, Extent2D extent) {
-    Camera camera;
-    camera.view =
-        glm::mat4(glm::lookAtRH(glm::dvec3(view.position), glm::dvec3(view.target), glm::dvec3(view.up)));
-    camera.projection = glm::mat4(projectionOf(view, double(extent.width) / double(extent.height)));
-    return camera;
-}
 
 Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const ScreenIndirectSettings& requested,
                                             const cpu::Device& device, cpu::Scalar precision) {
@@ -67,7 +47,7 @@ Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const Scree
     pipeline.composed_ = HostImage(settings.resolution, 3, precision);
 
     ScreenIndirectFrame<cpu::Image> images;
-    images.camera = cameraOf(frame.camera, settings.resolution);
+    images.camera = lab::cameraMatrices(frame.camera, settings.resolution);
     images.depth = pipeline.depth.view();
     images.normal = pipeline.normal.view();
     images.albedo = pipeline.albedo.view();

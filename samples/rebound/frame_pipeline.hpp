@@ -8,9 +8,6 @@
 
 namespace rebound::cli {
 
-// The matrices of a camera of the lab, for pictures of that size.
-Camera cameraOf(const lab::CameraView&, Extent2D);
-
 class FramePipeline {
 public:
     // Copies the frame's images to the host's layout and compiles the plan. The frame has to be valid.

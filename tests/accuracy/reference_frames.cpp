@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "reference_frames.hpp"
 
+#include "lab/camera_matrices.hpp"
 #include "lab/image_files.hpp"
 #include "rebound/cpu/device.hpp"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -18,14 +18,6 @@ template <class T>
 T take(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().message);
     return std::move(*result);
-}
-
-Camera matricesOf(const lab::CameraView& view, Extent2D extent) {
-    Camera camera;
-    camera.view = glm::lookAtRH(view.position, view.target, view.up);
-    camera.projection = glm::perspectiveRH_ZO(view.verticalFieldOfView, float(extent.width) / float(extent.height),
-                                              view.nearPlane, view.farPlane);
-    return camera;
 }
 
 } // namespace
@@ -57,7 +49,7 @@ lab::Image gather(const ReferenceView& view, ScreenIndirectSettings settings) {
         return cpu::interleavedImage(const_cast<float*>(i.data.data()), extent, i.channels);
     };
     ScreenIndirectFrame<cpu::Image> inputs;
-    inputs.camera = matricesOf(frame.camera, extent);
+    inputs.camera = lab::cameraMatrices(frame.camera, extent);
     inputs.depth = image(frame.depth);
     inputs.normal = image(frame.normal);
     inputs.radiance = image(radiance);
