@@ -68,8 +68,22 @@ bool isLit(const Scene& scene) {
            (scene.emissiveMaterialsLight && std::any_of(scene.meshes.begin(), scene.meshes.end(), emits));
 }
 
-Scene readScene(const std::string& name, const std::filesystem::path& viewFile) {
+// A view file's moment, changed as asked.
+GltfOptions momentOf(GltfOptions options, const SceneMoment& moment) {
+    // Another clip's time means nothing to this one.
+    if (moment.animation && *moment.animation != options.animation)
+        options.time = 0.0f;
+    options.animation = moment.animation.value_or(options.animation);
+    options.time = moment.time.value_or(options.time);
+    options.animate = options.animate || moment.animation || moment.time;
+    return options;
+}
+
+Scene readScene(const std::string& name, const std::filesystem::path& viewFile, const SceneMoment& moment) {
     if (name.starts_with(builtinPrefix)) {
+        if (moment.animation || moment.time)
+            refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
+                   ErrorCode::invalidArgument);
         Scene scene = makeBuiltin(name.substr(builtinPrefix.size()));
         if (!viewFile.empty())
             orRefuse(applyViewFile(viewFile, scene));
@@ -77,8 +91,8 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile) 
     }
     const std::filesystem::path file(name);
     const std::filesystem::path view = viewFile.empty() ? viewFileBeside(file) : viewFile;
-    const GltfOptions options = view.empty() ? GltfOptions{} : orRefuse(readViewAnimation(view));
-    Scene scene = orRefuse(loadGltf(file, options));
+    const GltfOptions stored = view.empty() ? GltfOptions{} : orRefuse(readViewAnimation(view));
+    Scene scene = orRefuse(loadGltf(file, momentOf(stored, moment)));
     if (!view.empty())
         orRefuse(applyViewFile(view, scene));
     return scene;
@@ -86,10 +100,11 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile) 
 
 } // namespace
 
-Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile) {
+Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile,
+                        const SceneMoment& moment) {
     Scene scene;
     try {
-        scene = readScene(fileOrBuiltin, viewFile);
+        scene = readScene(fileOrBuiltin, viewFile, moment);
     } catch (const InputError& failure) {
         return failure.error();
     }

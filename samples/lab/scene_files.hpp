@@ -5,6 +5,7 @@
 #include "lab/scene.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace rebound::lab {
@@ -28,9 +29,18 @@ Result<> applyViewFile(const std::filesystem::path&, Scene&);
 // What a view file says about the moment to load; read before the scene it belongs to.
 Result<GltfOptions> readViewAnimation(const std::filesystem::path&);
 
-// A scene file, or "builtin:atrium" or "builtin:cornell". With an empty viewFile, the view.json beside a scene file is
-// used where there is one. A scene that has no camera gets one that sees all of it. The result is validated.
-Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile = {});
+// The moment of a moving scene; what is absent is the view file's, or else the first clip at 0 s. With neither of them,
+// and no animation in the view file, the scene rests.
+struct SceneMoment {
+    std::optional<std::string> animation; // a clip's name
+    std::optional<float> time;            // of that clip [s]
+};
+
+// A scene file, or "builtin:atrium" or "builtin:cornell", which do not move. With an empty viewFile, the view.json
+// beside a scene file is used where there is one. A scene that has no camera gets one that sees all of it. The result
+// is validated.
+Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile = {},
+                        const SceneMoment& = {});
 
 Scene makeCornellBox();
 Scene makeAtrium();

@@ -14,71 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isBuiltin(const SourceOptions& options) {
-    return options.scene.starts_with("builtin:");
-}
-
-fs::path viewFileOf(const SourceOptions& options) {
-    if (!options.view.empty())
-        return options.view;
-    const fs::path beside = fs::path(options.scene).parent_path() / "view.json";
-    std::error_code failure;
-    return fs::exists(beside, failure) ? beside : fs::path();
-}
-
-// The moment that the options ask for, where they leave it open that of the view file.
-Result<lab::GltfOptions> momentOf(const SourceOptions& options) {
-    lab::GltfOptions moment;
-    if (const fs::path view = viewFileOf(options); !view.empty()) {
-        auto stored = lab::readViewAnimation(view);
-        if (!stored)
-            return stored.error();
-        moment = *stored;
-    }
-    // Another clip's moment means nothing to this one.
-    if (options.animation && *options.animation != moment.animation)
-        moment.time = 0.0f;
-    moment.animation = options.animation.value_or(moment.animation);
-    moment.time = options.time.value_or(moment.time);
-    moment.animate = true;
-    return moment;
-}
-
-// The scene as it stands at another moment: its surfaces move, and the cameras and lights of a view file
-// stay.
-Result<> moveTo(lab::Scene& scene, const SourceOptions& options) {
-    const auto moment = momentOf(options);
-    if (!moment)
-        return moment.error();
-    auto moved = lab::loadGltf(options.scene, *moment);
-    if (!moved)
-        return moved.error();
-    scene.meshes = std::move(moved->meshes);
-    if (viewFileOf(options).empty()) {
-        scene.lights = std::move(moved->lights);
-        if (!moved->cameras.empty())
-            scene.cameras = std::move(moved->cameras);
-    }
-    if (auto valid = lab::validate(scene); !valid)
-        return Error{valid.error().code, "'" + options.scene + "': " + valid.error().message};
-    return {};
-}
-
 Result<lab::Scene> loadSceneOf(const SourceOptions& options) {
-    const bool moves = options.animation || options.time;
     if (options.scene.empty())
         return invalidArgument("SCENE is empty; a glTF file, builtin:atrium or builtin:cornell was expected");
     if (options.time && !std::isfinite(*options.time))
         return invalidArgument("--time is not finite; a number of seconds was expected");
-    if (moves && isBuiltin(options))
+    if ((options.animation || options.time) && options.scene.starts_with("builtin:"))
         return invalidArgument("--time and --animation need a glTF file, but the scene is " + options.scene +
                                ", which does not move");
-    auto scene = lab::loadScene(options.scene, options.view);
-    if (!scene || !moves)
-        return scene;
-    if (auto moved = moveTo(*scene, options); !moved)
-        return moved.error();
-    return scene;
+    return lab::loadScene(options.scene, options.view, {options.animation, options.time});
 }
 
 Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, int threads) {
