@@ -20,10 +20,10 @@ macro(rebound_kernel_options)
         list(APPEND kernel_options -Wno-maybe-uninitialized -Wno-uninitialized)
     endif()
     if(REBOUND_SANITIZE)
-        # With every arithmetic operation checked and described, unrolled kernels would take minutes to compile; their
-        # memory accesses are what can go wrong.
+        # With every arithmetic operation checked and described, and every temporary poisoned at the end of its scope,
+        # unrolled kernels would take minutes to compile; their accesses of images and buffers are what can go wrong.
         list(TRANSFORM kernel_options REPLACE "-O3" "-O1")
-        list(APPEND kernel_options -g0 -fno-sanitize=undefined)
+        list(APPEND kernel_options -g0 -fno-sanitize=undefined -fno-sanitize-address-use-after-scope)
     endif()
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
         set(isas scalar baseline avx2 avx512)
