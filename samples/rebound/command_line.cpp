@@ -70,7 +70,7 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
     app.add_option("--radius", o.radius,
                    "outer radius of every ring [texels of its level], 1 to 1024; auto: the\n"
                    "smallest with which the outermost ring covers the screen\n"
-                   "(presets: 40 at 1280x720, in proportion to the screen elsewhere)")
+                   "(presets: 40 at 720 rows, in proportion elsewhere)")
         ->option_text("R")
         ->group(techniqueGroup);
     app.add_option("--samples", o.samples, "samples a pixel and level, 4 to 256")
