@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "program_state.hpp"
 
+#include "rebound/detail/kernel_check.hpp"
+
 #include <cstring>
 #include <new>
 
@@ -70,71 +72,31 @@ Binding bindingOf(const Resource& r, std::byte* transient, std::byte* buffer) {
     return b;
 }
 
-// What a kernel's slot takes: a texture needs the padding of a transient, an input any image that is read, and so on.
-bool fits(BindingKind kind, const Resource& r, Access access) {
-    const bool reads = access == Access::read;
-    switch (kind) {
-    case BindingKind::none: return false;
-    case BindingKind::texture: return reads && r.kind == ResourceKind::transient;
-    case BindingKind::input: return reads && detail::isImage(r.kind);
-    case BindingKind::image: return !reads && r.kind == ResourceKind::transient;
-    case BindingKind::output: return !reads && (r.kind == ResourceKind::output || r.kind == ResourceKind::transient);
-    case BindingKind::buffer: return reads && r.kind == ResourceKind::buffer;
-    case BindingKind::constants:
-        return reads && (r.kind == ResourceKind::buffer || r.kind == ResourceKind::frameConstants);
-    }
-    return false;
-}
-
-Result<RunRows> selectVariant(const KernelEntry& kernel, const Pass& pass) {
+RunRows variantOf(const KernelEntry& kernel, const Pass& pass) {
     int index = 0, stride = 1;
     for (size_t i = 0; i < pass.features.size(); ++i) {
-        const int count = kernel.info.featureCounts[i];
-        if (pass.features[i] < 0 || pass.features[i] >= count)
-            return invalidArgument("plan.passes: " + pass.label + " sets feature " + std::to_string(i) + " of " +
-                                   kernel.name + " to " + std::to_string(pass.features[i]) + "; 0 to " +
-                                   std::to_string(count - 1) + " was expected");
         index += stride * pass.features[i];
-        stride *= count;
+        stride *= kernel.info.featureCounts[i];
     }
     return kernel.variants[index];
 }
 
 Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const KernelEntry& kernel,
                                  const std::vector<Binding>& resources) {
+    if (auto valid = detail::checkKernelUse(plan, pass, kernel.name, kernel.info); !valid) return valid.error();
     CompiledPass compiled;
-    auto run = selectVariant(kernel, pass);
-    if (!run) return run.error();
-    compiled.run = *run;
+    compiled.run = variantOf(kernel, pass);
     compiled.grid = pass.grid;
     constexpr int pixelsPerTask = 2048; // enough to hide a task's overhead of well under a microsecond
     compiled.rowsPerTask = std::max(1, pixelsPerTask / pass.grid.width);
-    bool bound[slotCount] = {};
     for (const PassBinding& binding : pass.bindings) {
         const Resource& r = plan.resources[size_t(binding.resource)];
-        const BindingKind kind = kernel.info.kinds[binding.slot];
-        if (!fits(kind, r, binding.access))
-            return invalidArgument("plan.passes: " + pass.label + " binds " + r.name + " to slot " +
-                                   std::to_string(binding.slot) + " of " + kernel.name + ", which does not take it");
-        if (binding.access == Access::write && r.extent != pass.grid)
-            return invalidArgument("plan.passes: " + pass.label + " writes " + r.name +
-                                   ", whose size is not that of the pass's grid");
-        if (r.size < kernel.info.sizes[binding.slot])
-            return invalidArgument("plan.passes: " + pass.label + " binds " + r.name + ", which has " +
-                                   std::to_string(r.size) + " bytes, to slot " + std::to_string(binding.slot) + " of " +
-                                   kernel.name + ", which takes " +
-                                   std::to_string(kernel.info.sizes[binding.slot]));
         compiled.slots[size_t(binding.slot)] = resources[size_t(binding.resource)];
-        compiled.slots[size_t(binding.slot)].kind = kind;
-        bound[binding.slot] = true;
+        compiled.slots[size_t(binding.slot)].kind = kernel.info.kinds[binding.slot];
         if (r.kind != ResourceKind::transient && r.kind != ResourceKind::buffer) compiled.external.push_back(binding);
         if (r.kind == ResourceKind::transient && binding.access == Access::write)
             compiled.cleared.push_back(binding.resource);
     }
-    for (int slot = 0; slot < slotCount; ++slot)
-        if (kernel.info.kinds[slot] != BindingKind::none && !bound[slot])
-            return invalidArgument("plan.passes: " + pass.label + " leaves slot " + std::to_string(slot) + " of " +
-                                   kernel.name + " unbound");
     return compiled;
 }
 
@@ -192,9 +154,7 @@ Result<Program> Device::compile(const Plan& plan) const {
     }
     for (const Pass& pass : plan.passes) {
         const KernelEntry* kernel = shared->findKernel(pass.kernel);
-        if (!kernel)
-            return Error{ErrorCode::notFound, "plan.passes: " + pass.label + " runs " + pass.kernel +
-                                                  ", which is not among the kernels of this device"};
+        if (!kernel) return detail::unknownKernel(pass);
         auto compiled = compilePass(plan, pass, *kernel, state->resources);
         if (!compiled) return compiled.error();
         state->passes.push_back(std::move(*compiled));

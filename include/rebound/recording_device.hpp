@@ -4,6 +4,7 @@
 // images.
 #pragma once
 
+#include "rebound/detail/kernel_check.hpp"
 #include "rebound/device.hpp"
 
 #include <algorithm>
@@ -135,8 +136,7 @@ private:
         for (const Pass& pass : plan.passes)
             if (!options.kernels.empty() &&
                 std::ranges::find(options.kernels, pass.kernel) == options.kernels.end())
-                return Error{ErrorCode::notFound, "plan.passes: " + pass.label + " runs " + pass.kernel +
-                                                      ", which is not among the kernels of this device"};
+                return detail::unknownKernel(pass);
         return {};
     }
 

@@ -54,11 +54,30 @@ TEST_CASE("every instruction set has the same kernels, with the same slots and f
     }
 }
 
+TEST_CASE("a shader declares the slots and features that its kernel has, and the formats of what it writes") {
+    const auto check = [](std::span<const Shader* const> shaders, std::span<const cpu::KernelEntry* const> kernels) {
+        for (const cpu::KernelEntry* kernel : kernels)
+            for (const Shader* shader : shaders)
+                if (shader->name == kernel->name) {
+                    CAPTURE(shader->name);
+                    CHECK(std::ranges::equal(shader->info.kinds, kernel->info.kinds));
+                    CHECK(std::ranges::equal(shader->info.featureCounts, kernel->info.featureCounts));
+                    for (int slot = 0; slot < slotCount; ++slot)
+                        if (shader->info.kinds[slot] == BindingKind::image ||
+                            shader->info.kinds[slot] == BindingKind::output)
+                            CHECK(shader->glsl.find("binding = " + std::to_string(slot) + ", " +
+                                                    name(shader->formats[slot])) != std::string_view::npos);
+                }
+    };
+    check(techniqueShaders(), cpu::techniqueKernels(cpu::Isa::scalar));
+    check(testShaders(), cpu::testKernels(cpu::Isa::scalar));
+}
+
 TEST_CASE("a shader's GLSL has the features that its kernel has") {
     for (const cpu::KernelEntry* kernel : cpu::techniqueKernels(cpu::Isa::scalar))
         for (const Shader* shader : techniqueShaders())
             if (shader->name == kernel->name)
-                for (int id = 0; id < cpu::featureCapacity; ++id) {
+                for (int id = 0; id < featureCapacity; ++id) {
                     CAPTURE(shader->name);
                     CHECK(usesFeature(shader->glsl, id) == (kernel->info.featureCounts[id] > 1));
                 }

@@ -3,15 +3,11 @@
 // instruction sets share it.
 #pragma once
 
+#include "rebound/kernel/kernel_interface.h"
+
 #include <cstddef>
-#include <cstdint>
 
 namespace rebound::cpu {
-
-enum class BindingKind : uint8_t { none, texture, input, image, output, buffer, constants };
-
-inline constexpr int slotCount = 16;
-inline constexpr int featureCapacity = 4;
 
 // A texture or image holds one plane of 32-bit floats a channel. Each row is followed, and the first one preceded, by
 // padding that reads as zero: lanes may straddle an image's sides.
@@ -32,12 +28,6 @@ struct Binding {
 
 // Runs a kernel for the pixels of rows yBegin to yEnd - 1 of a grid that is width pixels wide.
 using RunRows = void (*)(const Binding* slots, int width, int yBegin, int yEnd);
-
-struct KernelInfo {
-    BindingKind kinds[slotCount];            // what the kernel declares in each slot
-    int featureCounts[featureCapacity];      // number of values of each feature; 1: no such feature
-    size_t sizes[slotCount];                 // of what a slot of constants or of a buffer holds at least [bytes]
-};
 
 // One kernel, compiled for one instruction set.
 struct KernelEntry {
