@@ -133,22 +133,47 @@ Result<> Program::record(const FrameInputs<Image>& inputs) {
     return {};
 }
 
-Result<std::vector<float>> Program::readTransient(std::string_view name) const {
-    const int index = state->plan.find(name);
-    if (index < 0 || state->plan.resources[size_t(index)].kind != ResourceKind::transient)
+namespace {
+
+Result<Binding> transientNamed(const Program::State& state, std::string_view name) {
+    const int index = state.plan.find(name);
+    if (index < 0 || state.plan.resources[size_t(index)].kind != ResourceKind::transient)
         return Error{ErrorCode::notFound, "the plan has no transient named " + std::string(name)};
-    const Binding& b = state->resources[size_t(index)];
-    if (lifetimes(state->plan)[size_t(index)].last < 0)
+    if (lifetimes(state.plan)[size_t(index)].last < 0)
         return Error{ErrorCode::notFound, "no pass of the plan uses the transient " + std::string(name)};
-    std::vector<float> texels(size_t(b.width) * size_t(b.height) * size_t(b.channels));
-    size_t next = 0;
+    return state.resources[size_t(index)];
+}
+
+// Calls visit for each channel of each texel, with its address.
+template <class Visit>
+void visitTexels(const Binding& b, Visit visit) {
     for (int y = 0; y < b.height; ++y)
         for (int x = 0; x < b.width; ++x)
             for (int c = 0; c < b.channels; ++c)
-                std::memcpy(&texels[next++],
-                            static_cast<const char*>(b.data) + c * b.channelStride + y * b.rowStride + x * b.pixelStride,
-                            sizeof(float));
+                visit(static_cast<char*>(b.data) + c * b.channelStride + y * b.rowStride + x * b.pixelStride);
+}
+
+} // namespace
+
+Result<std::vector<float>> Program::readTransient(std::string_view name) const {
+    const auto binding = transientNamed(*state, name);
+    if (!binding) return binding.error();
+    std::vector<float> texels(size_t(binding->width) * size_t(binding->height) * size_t(binding->channels));
+    size_t next = 0;
+    visitTexels(*binding, [&](const char* texel) { std::memcpy(&texels[next++], texel, sizeof(float)); });
     return texels;
+}
+
+Result<> Program::writeTransient(std::string_view name, std::span<const float> texels) {
+    const auto binding = transientNamed(*state, name);
+    if (!binding) return binding.error();
+    const size_t count = size_t(binding->width) * size_t(binding->height) * size_t(binding->channels);
+    if (texels.size() != count)
+        return invalidArgument("texels: " + std::string(name) + " takes " + std::to_string(count) + " floats, not " +
+                               std::to_string(texels.size()));
+    size_t next = 0;
+    visitTexels(*binding, [&](char* texel) { std::memcpy(texel, &texels[next++], sizeof(float)); });
+    return {};
 }
 
 } // namespace rebound::cpu

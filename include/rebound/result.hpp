@@ -16,6 +16,7 @@ enum class ErrorCode {
     inputOutput,     // reading or writing failed
     outOfMemory,
     unsupported,     // the device cannot do what was asked of it
+    deviceLost,      // the GPU has stopped answering; what was made with it can only be destroyed
 };
 
 // One sentence that names the argument, its value and what was expected.

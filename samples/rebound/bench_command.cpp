@@ -2,7 +2,6 @@
 #include "commands.hpp"
 #include "frame_pipeline.hpp"
 #include "frame_source.hpp"
-#include "memory_check.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -88,30 +87,16 @@ std::string measurementTable(const Measurement& measurement) {
 }
 
 Result<> bench(const BenchOptions& options) {
-    const auto extent = parseSize(options.technique.size);
-    if (!extent)
-        return extent.error();
-    const auto sceneSettings = settingsOf(options.technique, *extent);
-    if (!sceneSettings)
-        return sceneSettings.error();
-    const auto plan = planOf(*sceneSettings);
-    if (!plan)
-        return plan.error();
-    const auto precision = scalarOf(options.device);
-    if (!precision)
-        return precision.error();
-    const auto device = createDevice(options.device);
-    if (!device)
-        return device.error();
-    if (auto enough = checkMemory(*device, *plan, *extent); !enough)
-        return enough;
-    const auto source = obtainFrame(options.source, *extent, options.device.threads);
+    auto preparation = prepare(options.technique, options.device);
+    if (!preparation)
+        return preparation.error();
+    const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
     if (!source)
         return source.error();
     const auto settings = settingsOf(options.technique, source->frame.depth.extent());
     if (!settings)
         return settings.error();
-    auto pipeline = FramePipeline::create(source->frame, *settings, *device, *precision);
+    auto pipeline = FramePipeline::create(source->frame, *settings, *preparation->backend, preparation->precision);
     if (!pipeline)
         return pipeline.error();
     const auto measurement = measure(*pipeline, options.warmUp, options.frames);
@@ -119,14 +104,15 @@ Result<> bench(const BenchOptions& options) {
         return measurement.error();
 
     const std::string& preset = options.technique.preset;
+    const runner::BackendInfo info = preparation->backend->info();
     if (options.json) {
         const Json run =
-            runToJson(*source, pipeline->settings(), preset, *device, *precision, pipeline->memoryUse());
+            runToJson(*source, pipeline->settings(), preset, info, preparation->precision, pipeline->memoryUse());
         std::cout << toJson(run, *measurement, options).dump(2, ' ', false, Json::error_handler_t::replace)
                   << '\n';
         return {};
     }
-    std::cout << describeRun(*source, pipeline->settings(), preset, *device, *precision) << options.frames
+    std::cout << describeRun(*source, pipeline->settings(), preset, info, preparation->precision) << options.frames
               << " frames after " << options.warmUp << " to warm up\n\n"
               << measurementTable(*measurement) << "\nmemory " << toText(pipeline->memoryUse()) << '\n';
     return {};

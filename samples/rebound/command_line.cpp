@@ -97,8 +97,16 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
 }
 
 void addDeviceOptions(CLI::App& app, DeviceChoice& o) {
+    app.add_option("--backend", o.backend, "what the technique runs on: cpu, vulkan or opengl (default: cpu)")
+        ->option_text("NAME")
+        ->group(deviceGroup);
+    app.add_option("--device", o.device,
+                   "of vulkan and opengl: part of the device's name (default: a GPU before\n"
+                   "a driver in software)")
+        ->option_text("NAME")
+        ->group(deviceGroup);
     app.add_option("--isa", o.isa,
-                   "instruction set: scalar, baseline, avx2 or avx512; automatic: the best\n"
+                   "instruction set of the CPU: scalar, baseline, avx2 or avx512; automatic: the best\n"
                    "that this processor runs (default: automatic)")
         ->option_text("NAME")
         ->group(deviceGroup);

@@ -3,9 +3,9 @@
 
 #include "lab/camera_matrices.hpp"
 #include "options.hpp"
+#include "runner/texels.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace rebound::cli {
 
@@ -15,57 +15,60 @@ namespace {
 size_t limitToRange(lab::Image& image) {
     size_t count = 0;
     for (size_t i = 0; i < image.data.size(); i += 3) {
-        count += std::max({image.data[i], image.data[i + 1], image.data[i + 2]}) > largestHalf;
+        count += std::max({image.data[i], image.data[i + 1], image.data[i + 2]}) > runner::largestHalf;
         for (size_t c = 0; c < 3; ++c)
-            image.data[i + c] = std::min(image.data[i + c], largestHalf);
+            image.data[i + c] = std::min(image.data[i + c], runner::largestHalf);
     }
     return count;
 }
 
+// Stands for an image until a backend has made its own.
+struct NoImage {};
+
 } // namespace
 
-Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const ScreenIndirectSettings& requested,
-                                            const cpu::Device& device, cpu::Scalar precision) {
-    ScreenIndirectSettings settings = requested;
-    settings.conventions.projection =
-        frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    auto plan = planOf(settings);
-    if (!plan)
-        return plan.error();
-    auto program = device.compile(*plan);
-    if (!program)
-        return program.error();
-
-    FramePipeline pipeline(settings, *std::move(program));
-    lab::Image outgoing = lab::outgoingRadiance(frame);
-    pipeline.limited = limitToRange(outgoing);
-    pipeline.depth = HostImage(frame.depth, cpu::Scalar::float32);
-    pipeline.normal = HostImage(frame.normal, precision);
-    pipeline.albedo = HostImage(frame.albedo, precision);
-    pipeline.radiance = HostImage(outgoing, precision);
-    pipeline.indirect_ = HostImage(settings.resolution, 3, precision);
-    pipeline.composed_ = HostImage(settings.resolution, 3, precision);
-
-    ScreenIndirectFrame<cpu::Image> images;
+Result<runner::PlanInputs> planInputsOf(const lab::Frame& frame, const ScreenIndirectSettings& settings,
+                                        size_t* limitedPixels) {
+    ScreenIndirectFrame<NoImage> images;
     images.camera = lab::cameraMatrices(frame.camera, settings.resolution);
-    images.depth = pipeline.depth.view();
-    images.normal = pipeline.normal.view();
-    images.albedo = pipeline.albedo.view();
-    images.radiance = images.lit = pipeline.radiance.view();
-    images.indirect = pipeline.indirect_.view();
-    images.composed = pipeline.composed_.view();
-    auto inputs = screenIndirectInputs(settings, images);
-    if (!inputs)
-        return inputs.error();
-    pipeline.inputs = *std::move(inputs);
-    return pipeline;
+    auto named = screenIndirectInputs(settings, images);
+    if (!named)
+        return named.error();
+    lab::Image outgoing = lab::outgoingRadiance(frame);
+    const size_t limited = limitToRange(outgoing);
+    if (limitedPixels)
+        *limitedPixels = limited;
+    runner::PlanInputs inputs;
+    inputs.images = {{"depth", frame.depth}, {"normal", frame.normal}};
+    if (settings.compose) {
+        inputs.images.push_back({"albedo", frame.albedo});
+        inputs.images.push_back({"lit", outgoing});
+    }
+    inputs.images.push_back({"radiance", std::move(outgoing)});
+    inputs.constants = std::move(named->constants);
+    return inputs;
 }
 
-Result<double> FramePipeline::run() {
-    const auto start = std::chrono::steady_clock::now();
-    if (auto recorded = program.record(inputs); !recorded)
-        return recorded.error();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const ScreenIndirectSettings& requested,
+                                            runner::Backend& backend, runner::Precision precision) {
+    FramePipeline pipeline;
+    pipeline.settings_ = requested;
+    pipeline.settings_.conventions.projection =
+        frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
+    auto plan = planOf(pipeline.settings_);
+    if (!plan)
+        return plan.error();
+    auto inputs = planInputsOf(frame, pipeline.settings_, &pipeline.limited);
+    if (!inputs)
+        return inputs.error();
+    auto prepared = backend.prepare(*plan, *inputs, {precision, false});
+    if (!prepared)
+        return prepared.error();
+    pipeline.prepared = *std::move(prepared);
+    pipeline.outgoing = std::move(inputs->images.back().image);
+    if (precision == runner::Precision::half)
+        runner::roundTo(Format::rgba16f, pipeline.outgoing);
+    return pipeline;
 }
 
 } // namespace rebound::cli

@@ -2,38 +2,39 @@
 // The three steps of an integration: images of the host, a compiled plan, and frames recorded with them.
 #pragma once
 
-#include "host_image.hpp"
 #include "lab/frame.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
+#include "runner/runner.hpp"
 
 namespace rebound::cli {
 
+// What planScreenIndirect() takes for a frame, apart from what the settings leave out. limitedPixels: how many were
+// brighter than the technique takes, and were limited to that; may be null.
+Result<runner::PlanInputs> planInputsOf(const lab::Frame&, const ScreenIndirectSettings&, size_t* limitedPixels = nullptr);
+
 class FramePipeline {
 public:
-    // Copies the frame's images to the host's layout and compiles the plan. The frame has to be valid.
-    static Result<FramePipeline> create(const lab::Frame&, const ScreenIndirectSettings&, const cpu::Device&,
-                                        cpu::Scalar precision);
+    // Hands the frame's images to the backend and compiles the plan. The frame has to be valid, and the backend outlives
+    // the pipeline.
+    static Result<FramePipeline> create(const lab::Frame&, const ScreenIndirectSettings&, runner::Backend&,
+                                        runner::Precision);
 
     // Runs one frame. Returns what it took [ms].
-    Result<double> run();
+    Result<double> run() { return prepared->run(); }
 
-    const std::vector<PassTiming>& timings() const { return program.timings(); } // of the last frame
-    MemoryUse memoryUse() const { return program.memoryUse(); }
+    const std::vector<PassTiming>& timings() const { return prepared->timings(); } // of the last frame
+    MemoryUse memoryUse() const { return prepared->memoryUse(); }
     const ScreenIndirectSettings& settings() const { return settings_; }
     size_t limitedPixels() const { return limited; } // whose radiance was above what the technique takes
 
-    lab::Image direct() const { return radiance.toLabImage(); } // emission + albedo * E / pi of direct light
-    lab::Image indirect() const { return indirect_.toLabImage(); } // E / pi of indirect light
-    lab::Image composed() const { return composed_.toLabImage(); } // direct + albedo * indirect
+    const lab::Image& direct() const { return outgoing; } // emission + albedo * E / pi of direct light
+    Result<lab::Image> indirect() const { return prepared->read("indirect"); } // E / pi of indirect light
+    Result<lab::Image> composed() const { return prepared->read("composed"); } // direct + albedo * indirect
 
 private:
-    FramePipeline(const ScreenIndirectSettings& settings, cpu::Program compiled)
-        : settings_(settings), program(std::move(compiled)) {}
-
     ScreenIndirectSettings settings_;
-    cpu::Program program;
-    HostImage depth, normal, albedo, radiance, indirect_, composed_;
-    FrameInputs<cpu::Image> inputs;
+    std::unique_ptr<runner::PreparedPlan> prepared;
+    lab::Image outgoing;
     size_t limited = 0;
 };
 

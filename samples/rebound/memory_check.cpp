@@ -15,12 +15,15 @@ constexpr double bytesPerPixel = 200.0;
 
 } // namespace
 
-Result<> checkMemory(const cpu::Device& device, const Plan& plan, Extent2D size) {
+Result<> checkMemory(const runner::Backend& backend, const Plan& plan, Extent2D size) {
+    const auto use = backend.memoryUse(plan);
+    if (!use)
+        return use.error();
     const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
     if (pages <= 0 || pageSize <= 0)
         return {};
     const double needed =
-        bytesPerPixel * double(size.width) * double(size.height) + double(device.memoryUse(plan).total());
+        bytesPerPixel * double(size.width) * double(size.height) + double(use->total());
     const double available = double(pages) * double(pageSize);
     if (needed <= available)
         return {};

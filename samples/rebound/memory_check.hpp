@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "rebound/cpu/device.hpp"
+#include "runner/runner.hpp"
 
 namespace rebound::cli {
 
 // Refuses pictures that this machine's memory cannot hold: where memory is overcommitted, the system would
 // end the program without a word. plan: for pictures of that size.
-Result<> checkMemory(const cpu::Device&, const Plan& plan, Extent2D size);
+Result<> checkMemory(const runner::Backend&, const Plan& plan, Extent2D size);
 
 } // namespace rebound::cli

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "options.hpp"
 
+#include "memory_check.hpp"
+
 #include <array>
 #include <charconv>
 #include <span>
@@ -20,8 +22,8 @@ constexpr std::pair<const char*, Reduction> reductionNames[] = {{"nearest", Redu
                                                                 {"voting", Reduction::voting}};
 constexpr std::pair<const char*, FormFactor> formFactorNames[] = {{"disc", FormFactor::pointToDisc},
                                                                   {"point", FormFactor::pointToPoint}};
-constexpr std::pair<const char*, cpu::Scalar> scalarNames[] = {{"half", cpu::Scalar::float16},
-                                                               {"float", cpu::Scalar::float32}};
+constexpr std::pair<const char*, runner::Precision> precisionNames[] = {{"half", runner::Precision::half},
+                                                               {"float", runner::Precision::single}};
 
 Error unexpected(const std::string& option, const std::string& value, const std::string& expected) {
     return invalidArgument(option + " is \"" + value + "\"; " + expected + " was expected");
@@ -102,8 +104,8 @@ const char* nameOf(Reduction value) {
 const char* nameOf(FormFactor value) {
     return nameIn<FormFactor>(formFactorNames, value);
 }
-const char* nameOf(cpu::Scalar value) {
-    return nameIn<cpu::Scalar>(scalarNames, value);
+const char* nameOf(runner::Precision value) {
+    return nameIn<runner::Precision>(precisionNames, value);
 }
 
 Result<Extent2D> parseSize(const std::string& text) {
@@ -155,22 +157,41 @@ Result<Plan> planOf(const ScreenIndirectSettings& settings) {
     return Error{plan.error().code, message};
 }
 
-Result<cpu::Device> createDevice(const DeviceChoice& choice) {
+Result<std::unique_ptr<runner::Backend>> createBackend(const DeviceChoice& choice) {
     const auto isa = cpu::isaFromName(choice.isa);
     if (!isa)
         return Error{isa.error().code, "--" + isa.error().message};
-    cpu::DeviceOptions options;
-    options.isa = *isa;
-    options.threads = choice.threads;
-    options.timings = true;
-    auto device = cpu::Device::create(options);
-    if (!device)
-        return Error{device.error().code, "--" + device.error().message};
-    return device;
+    if (choice.backend == "cpu" && !choice.device.empty())
+        return unexpected("--device", choice.device, "--backend vulkan or opengl");
+    auto backend = runner::createBackend({choice.backend, choice.device, *isa, choice.threads, false});
+    if (backend || backend.error().message.starts_with("Vulkan: ") || backend.error().message.starts_with("OpenGL: "))
+        return backend;
+    return Error{backend.error().code, "--" + backend.error().message};
 }
 
-Result<cpu::Scalar> scalarOf(const DeviceChoice& choice) {
-    return valueNamed<cpu::Scalar>("--precision", choice.precision, scalarNames);
+Result<runner::Precision> precisionOf(const DeviceChoice& choice) {
+    return valueNamed<runner::Precision>("--precision", choice.precision, precisionNames);
+}
+
+Result<Preparation> prepare(const TechniqueOptions& technique, const DeviceChoice& choice) {
+    const auto extent = parseSize(technique.size);
+    if (!extent)
+        return extent.error();
+    const auto settings = settingsOf(technique, *extent);
+    if (!settings)
+        return settings.error();
+    const auto plan = planOf(*settings);
+    if (!plan)
+        return plan.error();
+    const auto precision = precisionOf(choice);
+    if (!precision)
+        return precision.error();
+    auto backend = createBackend(choice);
+    if (!backend)
+        return backend.error();
+    if (auto enough = checkMemory(**backend, *plan, *extent); !enough)
+        return enough.error();
+    return Preparation{*std::move(backend), *precision, *extent};
 }
 
 } // namespace rebound::cli

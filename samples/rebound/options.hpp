@@ -2,8 +2,8 @@
 // What the commands share on the command line, and what it means.
 #pragma once
 
-#include "rebound/cpu/device.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
+#include "runner/runner.hpp"
 
 #include <optional>
 #include <string>
@@ -35,6 +35,8 @@ struct TechniqueOptions {
 };
 
 struct DeviceChoice {
+    std::string backend = "cpu";
+    std::string device; // of vulkan and opengl: part of its name
     std::string isa = "automatic";
     int threads = 0; // 0: one a core
     std::string precision = "half";
@@ -55,14 +57,22 @@ Result<ScreenIndirectSettings> settingsOf(const TechniqueOptions&, Extent2D reso
 // A plan, with errors that name options instead of settings.
 Result<Plan> planOf(const ScreenIndirectSettings&);
 
-// A device that measures its passes.
-Result<cpu::Device> createDevice(const DeviceChoice&);
-Result<cpu::Scalar> scalarOf(const DeviceChoice&);
+// A backend whose passes are measured.
+Result<std::unique_ptr<runner::Backend>> createBackend(const DeviceChoice&);
+Result<runner::Precision> precisionOf(const DeviceChoice&);
+
+// What can be said about options before anything long begins.
+struct Preparation {
+    std::unique_ptr<runner::Backend> backend;
+    runner::Precision precision;
+    Extent2D extent; // of scenes
+};
+Result<Preparation> prepare(const TechniqueOptions&, const DeviceChoice&);
 
 // How options spell a setting's value.
 const char* nameOf(StartResolution);
 const char* nameOf(Reduction);
 const char* nameOf(FormFactor);
-const char* nameOf(cpu::Scalar);
+const char* nameOf(runner::Precision);
 
 } // namespace rebound::cli

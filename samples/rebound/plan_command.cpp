@@ -24,10 +24,13 @@ Result<> printPlan(const TechniqueOptions& options) {
         return plan.error();
     DeviceChoice choice;
     choice.threads = 1; // nothing runs
-    const auto device = createDevice(choice);
-    if (!device)
-        return device.error();
-    std::cout << rebound::toText(*plan) << "memory on the CPU " << toText(device->memoryUse(*plan))
+    const auto backend = createBackend(choice);
+    if (!backend)
+        return backend.error();
+    const auto use = (*backend)->memoryUse(*plan);
+    if (!use)
+        return use.error();
+    std::cout << rebound::toText(*plan) << "memory on the CPU " << toText(*use)
               << "\nmemory on a GPU " << toText(memoryUse(*plan)) << '\n';
     return {};
 }

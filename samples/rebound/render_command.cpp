@@ -4,11 +4,11 @@
 #include "frame_source.hpp"
 #include "lab/image_files.hpp"
 #include "lab/output_file.hpp"
-#include "memory_check.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "report.hpp"
+#include "runner/texels.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -29,39 +29,9 @@ struct RenderOptions {
     std::string out = "out";
 };
 
-// What may be said about the options before anything long begins.
-struct Preparation {
-    cpu::Device device;
-    cpu::Scalar precision;
-    Extent2D extent; // of scenes
-};
-
-Result<Preparation> prepare(const RenderOptions& options) {
-    const auto extent = parseSize(options.technique.size);
-    if (!extent)
-        return extent.error();
-    const auto settings = settingsOf(options.technique, *extent);
-    if (!settings)
-        return settings.error();
-    const auto plan = planOf(*settings);
-    if (!plan)
-        return plan.error();
-    const auto precision = scalarOf(options.device);
-    if (!precision)
-        return precision.error();
-    auto device = createDevice(options.device);
-    if (!device)
-        return device.error();
-    if (auto enough = checkMemory(*device, *plan, *extent); !enough)
-        return enough.error();
-    if (auto writable = checkOutputFolder(options.out); !writable)
-        return writable.error();
-    return Preparation{*std::move(device), *precision, *extent};
-}
-
 std::vector<OutputFile> imageFiles(const RenderedImages& images, const lab::ToneCurve& curve,
-                                   cpu::Scalar scalar) {
-    const auto precision = scalar == cpu::Scalar::float16 ? lab::ExrPrecision::half : lab::ExrPrecision::full;
+                                   runner::Precision hostPrecision) {
+    const auto precision = hostPrecision == runner::Precision::half ? lab::ExrPrecision::half : lab::ExrPrecision::full;
     std::vector<OutputFile> files;
     const auto add = [&](const std::string& name, const lab::Image& image) {
         files.push_back({name + ".exr", [&image, precision](const fs::path& path) {
@@ -103,14 +73,16 @@ Result<double> runMeasured(FramePipeline& pipeline) {
 
 void printLimited(const FramePipeline& pipeline) {
     if (pipeline.limitedPixels() > 0)
-        std::cout << "note: radiance above " << largestHalf << " W m^-2 sr^-1 was limited to it in "
+        std::cout << "note: radiance above " << runner::largestHalf << " W m^-2 sr^-1 was limited to it in "
                   << pipeline.limitedPixels() << " pixels\n";
 }
 
 Result<> render(const RenderOptions& options) {
-    auto preparation = prepare(options);
+    auto preparation = prepare(options.technique, options.device);
     if (!preparation)
         return preparation.error();
+    if (auto writable = checkOutputFolder(options.out); !writable)
+        return writable;
     const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
     if (!source)
         return source.error();
@@ -118,17 +90,22 @@ Result<> render(const RenderOptions& options) {
     if (!settings)
         return settings.error();
     auto pipeline =
-        FramePipeline::create(source->frame, *settings, preparation->device, preparation->precision);
+        FramePipeline::create(source->frame, *settings, *preparation->backend, preparation->precision);
     if (!pipeline)
         return pipeline.error();
     const auto milliseconds = runMeasured(*pipeline);
     if (!milliseconds)
         return milliseconds.error();
 
-    const RenderedImages images{pipeline->direct(), pipeline->indirect(), pipeline->composed()};
+    auto indirect = pipeline->indirect(), composed = pipeline->composed();
+    if (!indirect)
+        return indirect.error();
+    if (!composed)
+        return composed.error();
+    const RenderedImages images{pipeline->direct(), *std::move(indirect), *std::move(composed)};
     const lab::ToneCurve curve = lab::automaticToneCurve(images.final);
     Json figures =
-        timingsToJson(runToJson(*source, pipeline->settings(), options.technique.preset, preparation->device,
+        timingsToJson(runToJson(*source, pipeline->settings(), options.technique.preset, preparation->backend->info(),
                                 preparation->precision, pipeline->memoryUse()),
                       pipeline->timings(), *milliseconds);
     figures["exposure"] = curve.exposure;
@@ -144,7 +121,7 @@ Result<> render(const RenderOptions& options) {
     if (auto written = writeOutputFolder(options.out, files); !written)
         return written;
 
-    std::cout << describeRun(*source, pipeline->settings(), options.technique.preset, preparation->device,
+    std::cout << describeRun(*source, pipeline->settings(), options.technique.preset, preparation->backend->info(),
                              preparation->precision)
               << '\n'
               << timingTable(pipeline->timings(), *milliseconds) << "\nmemory "

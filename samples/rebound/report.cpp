@@ -40,13 +40,12 @@ Json settingsToJson(const ScreenIndirectSettings& s, const std::string& preset) 
 } // namespace
 
 std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings& s,
-                        const std::string& preset, const cpu::Device& device, cpu::Scalar precision) {
+                        const std::string& preset, const runner::BackendInfo& backend, runner::Precision precision) {
     std::string text = source.name;
     if (!source.frame.camera.name.empty())
         text += ", camera " + source.frame.camera.name;
     text += ", " + std::to_string(s.resolution.width) + "x" + std::to_string(s.resolution.height) + ", " +
-            cpu::name(device.isa()) + " on " + plural(device.threads(), "thread") + ", images in " +
-            nameOf(precision) + "\n";
+            runner::toText(backend) + ", images in " + nameOf(precision) + "\n";
     text += preset + ": from " + nameOf(s.start) + " resolution, " + plural(s.levels, "level") + ", " +
             std::to_string(s.samplesPerLevel) + " samples a level, " +
             formatted("ring radius %g texels, ", double(s.ringRadius)) + nameOf(s.reduction) +
@@ -58,14 +57,19 @@ std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings
 }
 
 Json runToJson(const SourcedFrame& source, const ScreenIndirectSettings& s, const std::string& preset,
-               const cpu::Device& device, cpu::Scalar precision, const MemoryUse& memory) {
+               const runner::BackendInfo& backend, runner::Precision precision, const MemoryUse& memory) {
     Json json;
     json[source.isStored ? "frame_folder" : "scene"] = source.name;
     json["camera"] = source.frame.camera.name;
     json["resolution"] = {s.resolution.width, s.resolution.height};
     json["settings"] = settingsToJson(s, preset);
-    json["isa"] = cpu::name(device.isa());
-    json["threads"] = device.threads();
+    json["backend"] = backend.backend;
+    if (backend.backend == "cpu") {
+        json["isa"] = backend.isa;
+        json["threads"] = backend.threads;
+    } else {
+        json["device"] = backend.device;
+    }
     json["precision"] = nameOf(precision);
     json["memory"] = {{"transient_bytes", memory.transient},
                       {"transient_unshared_bytes", memory.transientUnshared},

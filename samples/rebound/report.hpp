@@ -18,11 +18,11 @@ using Json = nlohmann::ordered_json;
 
 // What was run on what, in two lines.
 std::string describeRun(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,
-                        const cpu::Device&, cpu::Scalar);
-// The same for programs: scene or frame, camera, resolution, settings, isa, threads, precision, memory
+                        const runner::BackendInfo&, runner::Precision);
+// The same for programs: scene or frame, camera, resolution, settings, backend, device, isa, threads, precision, memory
 // [bytes].
 Json runToJson(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,
-               const cpu::Device&, cpu::Scalar, const MemoryUse&);
+               const runner::BackendInfo&, runner::Precision, const MemoryUse&);
 
 // A table with a name and numbers in each row, two decimals; the last row is set apart.
 using TableRow = std::pair<std::string, std::vector<double>>;

@@ -7,6 +7,7 @@
 #include "rebound/device.hpp"
 
 #include <memory>
+#include <span>
 
 namespace rebound::cpu {
 
@@ -77,6 +78,9 @@ public:
     // A transient image's texels, interleaved, with the channels in use: for tests and for looking at what a pass left.
     // Later passes may have reused its memory: read it from within onPass().
     Result<std::vector<float>> readTransient(std::string_view name) const;
+
+    // Replaces a transient image's texels, interleaved, with the channels in use: for tests that give a pass other inputs.
+    Result<> writeTransient(std::string_view name, std::span<const float> texels);
 
     // Called after each pass of record(), with the pass's index; empty: never.
     void onPass(std::function<void(int)> callback);

@@ -8,21 +8,21 @@
 #include <cstddef>
 #include <vector>
 
-namespace rebound::cli {
-
-// The largest finite value of half precision.
-inline constexpr float largestHalf = 65504.0f;
+namespace rebound::runner {
 
 class HostImage {
 public:
     HostImage() = default;
     // All zero.
     HostImage(Extent2D, int channels, cpu::Scalar);
-    // In half precision, values beyond its range become its largest.
+    // Halves as halfOf() has them.
     HostImage(const lab::Image&, cpu::Scalar);
 
     // Valid as long as this image is neither changed nor destroyed; a move keeps it valid.
     cpu::Image view();
+
+    // Replaces the contents by those of an image of the same size and number of channels.
+    void assign(const lab::Image&);
 
     // Exact.
     lab::Image toLabImage() const;
@@ -34,4 +34,4 @@ private:
     std::vector<std::byte> bytes;
 };
 
-} // namespace rebound::cli
+} // namespace rebound::runner

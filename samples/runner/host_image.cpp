@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "host_image.hpp"
+#include "runner/host_image.hpp"
+
+#include "runner/texels.hpp"
 
 #include <glm/gtc/packing.hpp>
 
-#include <algorithm>
 #include <cstring>
 
-namespace rebound::cli {
-
+namespace rebound::runner {
 namespace {
 
-size_t sizeOf(cpu::Scalar scalar) {
-    return scalar == cpu::Scalar::float16 ? 2 : 4;
-}
-
-size_t pixelCount(Extent2D extent) {
-    return size_t(extent.width) * size_t(extent.height);
-}
+size_t sizeOf(cpu::Scalar scalar) { return scalar == cpu::Scalar::float16 ? 2 : 4; }
+size_t pixelCount(Extent2D extent) { return size_t(extent.width) * size_t(extent.height); }
 
 } // namespace
 
@@ -26,22 +21,20 @@ HostImage::HostImage(Extent2D size, int channelCount, cpu::Scalar precision)
 
 HostImage::HostImage(const lab::Image& image, cpu::Scalar precision)
     : HostImage(image.extent(), image.channels, precision) {
+    assign(image);
+}
+
+void HostImage::assign(const lab::Image& image) {
     std::byte* next = bytes.data();
     for (size_t c = 0; c < size_t(channels); ++c)
         for (size_t pixel = 0; pixel < pixelCount(extent); ++pixel, next += sizeOf(scalar)) {
             const float value = image.data[pixel * size_t(channels) + c];
-            if (scalar == cpu::Scalar::float32) {
-                std::memcpy(next, &value, sizeof value);
-            } else {
-                const glm::uint16 half = glm::packHalf1x16(std::clamp(value, -largestHalf, largestHalf));
-                std::memcpy(next, &half, sizeof half);
-            }
+            const uint16_t half = halfOf(value);
+            std::memcpy(next, scalar == cpu::Scalar::float32 ? static_cast<const void*>(&value) : &half, sizeOf(scalar));
         }
 }
 
-cpu::Image HostImage::view() {
-    return cpu::planarImage(bytes.data(), extent, channels, scalar);
-}
+cpu::Image HostImage::view() { return cpu::planarImage(bytes.data(), extent, channels, scalar); }
 
 lab::Image HostImage::toLabImage() const {
     lab::Image image(extent, channels);
@@ -52,7 +45,7 @@ lab::Image HostImage::toLabImage() const {
             if (scalar == cpu::Scalar::float32) {
                 std::memcpy(&value, next, sizeof value);
             } else {
-                glm::uint16 half = 0;
+                uint16_t half = 0;
                 std::memcpy(&half, next, sizeof half);
                 value = glm::unpackHalf1x16(half);
             }
@@ -60,4 +53,4 @@ lab::Image HostImage::toLabImage() const {
     return image;
 }
 
-} // namespace rebound::cli
+} // namespace rebound::runner

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// From a plan to what record() needs.
+#include "device_state.hpp"
+
+#include "rebound/detail/shader_check.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rebound::vulkan {
+namespace {
+
+using State = Program::State;
+
+Result<> checkLimits(const Device::Shared& d, const Plan& plan) {
+    for (const Resource& r : plan.resources) {
+        const std::string what = "plan.resources: " + r.name;
+        const uint32_t side = uint32_t(std::max(r.extent.width, r.extent.height));
+        if (detail::isImage(r.kind) && side > d.limits.maxImageDimension2D)
+            return Error{ErrorCode::unsupported, what + " is " + detail::toText(r.extent) +
+                                                     "; this device's images have at most " +
+                                                     std::to_string(d.limits.maxImageDimension2D) + " texels a side"};
+        if (r.kind == ResourceKind::frameConstants && r.size > d.limits.maxUniformBufferRange)
+            return Error{ErrorCode::unsupported, what + " has " + std::to_string(r.size) +
+                                                     " bytes; this device's constants have at most " +
+                                                     std::to_string(d.limits.maxUniformBufferRange)};
+    }
+    return {};
+}
+
+Result<> checkPlan(const Device::Shared& d, const Plan& plan, const CompileOptions& options) {
+    if (auto valid = validate(plan); !valid) return valid;
+    if (options.framesInFlight < 1 || options.framesInFlight > 8)
+        return invalidArgument("framesInFlight is " + std::to_string(options.framesInFlight) + "; 1 to 8 was expected");
+    if (auto valid = checkLimits(d, plan); !valid) return valid;
+    for (const Pass& pass : plan.passes) {
+        const Shader* shader = detail::findShader(d.shaders, pass.kernel);
+        if (!shader) return detail::unknownKernel(pass);
+        if (auto valid = detail::checkShaderUse(plan, pass, *shader); !valid) return valid;
+    }
+    return {};
+}
+
+Result<> bindTransients(State& s, const State* sharing) {
+    const Device::Shared& d = *s.device;
+    const VkMemoryRequirements& block = s.transients.block;
+    if (block.size == 0) return {};
+    if (sharing) {
+        s.transientMemory = sharing->transientMemory;
+        if (!s.transientMemory || s.transientMemory->size < block.size ||
+            !(block.memoryTypeBits >> s.transientMemory->block.memoryType & 1u))
+            return invalidArgument("shareTransientsWith has " +
+                                   std::to_string(s.transientMemory ? s.transientMemory->size : 0) +
+                                   " bytes of transients; " + std::to_string(block.size) +
+                                   " of a memory type that suits were expected");
+    } else {
+        auto memory = allocateMemory(s.device, {block, false});
+        if (!memory) return memory.error();
+        s.transientMemory = *std::move(memory);
+    }
+    for (size_t i = 0; i < s.transients.images.size(); ++i) {
+        TransientImage& t = s.transients.images[i];
+        if (!t.image) continue;
+        const Resource& r = s.plan.resources[i];
+        const VkDeviceSize offset = s.transientMemory->block.offset + s.transients.layout.offsets[i];
+        if (auto bound = check(d.vk.BindImageMemory(d.device, t.image, s.transientMemory->block.memory, offset),
+                               "binding memory to " + r.name);
+            !bound)
+            return bound;
+        auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+        info.image = t.image;
+        info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        info.format = vulkanFormat(r.format);
+        info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        if (auto made = check(d.vk.CreateImageView(d.device, &info, nullptr, &t.view), "creating a view of " + r.name);
+            !made)
+            return made;
+    }
+    return {};
+}
+
+Result<> createBuffer(State& s) {
+    const Device::Shared& d = *s.device;
+    if (s.bufferLayout.size == 0) return {};
+    auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+    info.size = s.bufferLayout.size;
+    info.usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    if (auto made = check(d.vk.CreateBuffer(d.device, &info, nullptr, &s.buffer), "creating a buffer"); !made) return made;
+    d.setName(VK_OBJECT_TYPE_BUFFER, handleBits(s.buffer), s.plan.technique + " buffers");
+    MemoryRequest request;
+    request.hostVisible = true;
+    d.vk.GetBufferMemoryRequirements(d.device, s.buffer, &request.requirements);
+    auto memory = allocateMemory(s.device, request);
+    if (!memory) return memory.error();
+    s.bufferMemory = *std::move(memory);
+    s.use.buffers = size_t(request.requirements.size);
+    for (size_t i = 0; i < s.plan.resources.size(); ++i)
+        if (const Resource& r = s.plan.resources[i]; r.kind == ResourceKind::buffer)
+            std::memcpy(static_cast<std::byte*>(s.bufferMemory->block.mapped) + s.bufferLayout.offsets[i], r.data.data(),
+                        r.size);
+    return check(d.vk.BindBufferMemory(d.device, s.buffer, s.bufferMemory->block.memory, s.bufferMemory->block.offset),
+                 "binding memory to a buffer");
+}
+
+Result<> compilePasses(State& s) {
+    for (const Pass& pass : s.plan.passes) {
+        const Shader& shader = *detail::findShader(s.device->shaders, pass.kernel);
+        CompiledPass compiled;
+        auto kernel = obtainKernel(*s.device, shader);
+        if (!kernel) return kernel.error();
+        compiled.kernel = *kernel;
+        auto pipeline = obtainPipeline(*s.device, shader, pass.features);
+        if (!pipeline) return pipeline.error();
+        compiled.pipeline = *pipeline;
+        const auto groups = [](int side) { return uint32_t((side + shaderGroupSize - 1) / shaderGroupSize); };
+        compiled.groups = {groups(pass.grid.width), groups(pass.grid.height)};
+        for (const PassBinding& b : pass.bindings) {
+            const ResourceKind kind = s.plan.resources[size_t(b.resource)].kind;
+            if (kind == ResourceKind::input || kind == ResourceKind::output) compiled.external.push_back(b);
+        }
+        s.passes.push_back(std::move(compiled));
+    }
+    schedulePasses(s.plan, s.transients.layout, s.transients.images, s.device->timestampBits > 0, s.passes);
+    return {};
+}
+
+Result<> allocateSets(State& s) {
+    const Device::Shared& d = *s.device;
+    const uint32_t setCount = uint32_t(s.plan.passes.size()) * uint32_t(s.framesInFlight);
+    if (setCount == 0) return {};
+    uint32_t bindings = 0;
+    for (const Pass& pass : s.plan.passes) bindings += uint32_t(pass.bindings.size());
+    bindings = std::max(1u, bindings * uint32_t(s.framesInFlight));
+    // At most so many of each kind: kinds are few, and descriptors small.
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, bindings},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, bindings},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, bindings},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, bindings}};
+    auto pool = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    pool.maxSets = setCount;
+    pool.poolSizeCount = uint32_t(std::size(sizes));
+    pool.pPoolSizes = sizes;
+    if (auto made = check(d.vk.CreateDescriptorPool(d.device, &pool, nullptr, &s.descriptorPool),
+                          "creating a descriptor pool");
+        !made)
+        return made;
+    std::vector<VkDescriptorSetLayout> layouts;
+    for (int frame = 0; frame < s.framesInFlight; ++frame)
+        for (const CompiledPass& pass : s.passes) layouts.push_back(pass.kernel->setLayout);
+    s.sets.resize(setCount);
+    auto info = structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    info.descriptorPool = s.descriptorPool;
+    info.descriptorSetCount = setCount;
+    info.pSetLayouts = layouts.data();
+    return check(d.vk.AllocateDescriptorSets(d.device, &info, s.sets.data()), "allocating descriptor sets");
+}
+
+// Everything but the host's images, which every frame brings anew.
+void writeSet(const State& s, int frame, size_t passIndex) {
+    const Pass& pass = s.plan.passes[passIndex];
+    const Shader& shader = *detail::findShader(s.device->shaders, pass.kernel);
+    std::vector<VkDescriptorImageInfo> images(pass.bindings.size());
+    std::vector<VkDescriptorBufferInfo> buffers(pass.bindings.size());
+    std::vector<VkWriteDescriptorSet> writes;
+    for (size_t i = 0; i < pass.bindings.size(); ++i) {
+        const PassBinding& b = pass.bindings[i];
+        const Resource& r = s.plan.resources[size_t(b.resource)];
+        if (r.kind == ResourceKind::input || r.kind == ResourceKind::output) continue;
+        auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstSet = s.sets[size_t(frame) * s.passes.size() + passIndex];
+        write.dstBinding = uint32_t(b.slot);
+        write.descriptorCount = 1;
+        write.descriptorType = descriptorType(shader.info.kinds[b.slot]);
+        if (r.kind == ResourceKind::transient) {
+            images[i] = {VK_NULL_HANDLE, s.transients.images[size_t(b.resource)].view, VK_IMAGE_LAYOUT_GENERAL};
+            write.pImageInfo = &images[i];
+        } else {
+            VkDeviceSize offset = s.bufferLayout.offsets[size_t(b.resource)];
+            if (r.kind == ResourceKind::frameConstants) offset += s.bufferLayout.frameStride * VkDeviceSize(frame);
+            buffers[i] = {s.buffer, offset, r.size};
+            write.pBufferInfo = &buffers[i];
+        }
+        writes.push_back(write);
+    }
+    s.device->vk.UpdateDescriptorSets(s.device->device, uint32_t(writes.size()), writes.data(), 0, nullptr);
+}
+
+Result<> createQueries(State& s) {
+    const Device::Shared& d = *s.device;
+    s.measured.assign(size_t(s.framesInFlight), false);
+    if (d.timestampBits == 0 || s.passes.empty()) return {};
+    auto info = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = uint32_t(s.passes.size() + 1) * uint32_t(s.framesInFlight);
+    return check(d.vk.CreateQueryPool(d.device, &info, nullptr, &s.queries), "creating a query pool");
+}
+
+} // namespace
+
+Program::State::~State() {
+    if (!device) return;
+    const Functions& vk = device->vk;
+    if (queries) vk.DestroyQueryPool(device->device, queries, nullptr);
+    if (descriptorPool) vk.DestroyDescriptorPool(device->device, descriptorPool, nullptr);
+    if (buffer) vk.DestroyBuffer(device->device, buffer, nullptr);
+    destroyTransients(*device, transients);
+}
+
+Result<MemoryUse> Device::memoryUse(const Plan& plan, const CompileOptions& options) const {
+    if (auto valid = checkPlan(*shared, plan, options); !valid) return valid.error();
+    auto transients = createTransients(*shared, plan, options.inspectable);
+    if (!transients) return transients.error();
+    MemoryUse use;
+    use.transient = options.shareTransientsWith ? 0 : transients->layout.size;
+    use.transientUnshared = transients->layout.sizeUnshared;
+    use.buffers = size_t(layoutBuffers(*shared, plan, options.framesInFlight).size);
+    destroyTransients(*shared, *transients);
+    return use;
+}
+
+Result<Program> Device::compile(const Plan& plan, const CompileOptions& options) const {
+    if (auto valid = checkPlan(*shared, plan, options); !valid) return valid.error();
+    auto state = std::make_unique<Program::State>();
+    state->device = shared;
+    state->plan = plan;
+    state->framesInFlight = options.framesInFlight;
+    state->inspectable = options.inspectable;
+    auto transients = createTransients(*shared, plan, options.inspectable);
+    if (!transients) return transients.error();
+    state->transients = *std::move(transients);
+    state->use.transient = options.shareTransientsWith ? 0 : state->transients.layout.size;
+    state->use.transientUnshared = state->transients.layout.sizeUnshared;
+    const Program::State* sharing = options.shareTransientsWith ? options.shareTransientsWith->state.get() : nullptr;
+    if (auto bound = bindTransients(*state, sharing); !bound) return bound.error();
+    state->bufferLayout = layoutBuffers(*shared, plan, options.framesInFlight);
+    if (auto made = createBuffer(*state); !made) return made.error();
+    if (auto compiled = compilePasses(*state); !compiled) return compiled.error();
+    if (auto allocated = allocateSets(*state); !allocated) return allocated.error();
+    for (int frame = 0; frame < options.framesInFlight; ++frame)
+        for (size_t pass = 0; pass < state->passes.size(); ++pass) writeSet(*state, frame, pass);
+    if (auto made = createQueries(*state); !made) return made.error();
+    return Program(std::move(state));
+}
+
+} // namespace rebound::vulkan

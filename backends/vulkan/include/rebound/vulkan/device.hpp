@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan backend: records plans into the host's command buffers.
+#pragma once
+
+#include "rebound/device.hpp"
+#include "rebound/shaders.hpp"
+#include "rebound/vulkan/memory.hpp"
+
+#include <vulkan/vulkan_core.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace rebound::vulkan {
+
+// An image of the host. Before the commands of record() run, its contents have to be available to compute shaders (an
+// input to reads, an output to writes), in the layout given here; Rebound never changes it. Afterwards outputs have been
+// written by compute shaders: the host's next barrier waits for stage COMPUTE_SHADER, access SHADER_WRITE.
+struct Image {
+    VkImageView view = VK_NULL_HANDLE;             // 2D, of one aspect; usage SAMPLED (inputs), STORAGE and, as later
+                                                   // passes may read them, SAMPLED (outputs)
+    Extent2D extent;                               // of the image
+    VkFormat format = VK_FORMAT_UNDEFINED;         // of outputs: that of the plan's resource; of inputs: any that
+                                                   // shaders sample as floats, and not looked at
+    VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL; // of inputs: any in which shaders read; of outputs: GENERAL
+};
+
+// The format of a plan's resource.
+VkFormat vulkanFormat(Format);
+
+// The host's own objects, which outlive the device and its programs. Vulkan 1.1, no extension.
+struct DeviceOptions {
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr; // Vulkan is reached through it alone
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    uint32_t queueFamily = 0;                     // of the command buffers: a family that computes
+    MemoryAllocator allocator;                    // the host's; empty: one vkAllocateMemory for a program's transients
+                                                  // and one for its buffers
+    std::span<const std::byte> pipelineCache;     // what pipelineCache() gave in an earlier run; may be empty or stale
+    bool timings = false;                         // whether programs measure their passes
+    bool debugUtils = false;                      // the host has enabled VK_EXT_debug_utils: name objects, label passes
+    // Shaders beside the techniques' own, of an engine that writes some; looked up first.
+    std::vector<std::span<const Shader* const>> moreShaders;
+};
+
+class Program;
+
+struct CompileOptions {
+    int framesInFlight = 2;               // 1 to 8: how many recordings may be in use by the GPU at once
+    // Use that program's memory for transients: for several views, or for the successor of a program that is still in
+    // flight. Both are to be recorded for the same queue. Fails where that memory is too small: begin with the largest.
+    const Program* shareTransientsWith = nullptr;
+    bool inspectable = false;             // transients can be copied from and to: see transientImage()
+};
+
+class Device {
+public:
+    // Fails where a handle is null, or the device or the queue family cannot do what Rebound needs.
+    static Result<Device> create(const DeviceOptions&);
+
+    // Fails where the plan is not valid, names a kernel, slot or feature that does not exist, exceeds the device's
+    // limits, or memory is short; the device stays as it was. May be called from several threads.
+    Result<Program> compile(const Plan&, const CompileOptions& = {}) const;
+
+    // What compile() would allocate, alignment and padding of the driver included.
+    Result<MemoryUse> memoryUse(const Plan&, const CompileOptions& = {}) const;
+
+    // The driver's compiled pipelines, for DeviceOptions::pipelineCache of a later run.
+    Result<std::vector<std::byte>> pipelineCache() const;
+
+    struct Shared;
+
+private:
+    std::shared_ptr<Shared> shared;
+};
+
+// A compiled plan. Destroy it when the GPU is done with what it recorded: after a resize, keep the old program until then.
+// Not to be recorded from two threads at once.
+class Program {
+public:
+    // Records one frame; submits nothing, and waits for nothing. frame: 0 to framesInFlight - 1; the GPU has to be done
+    // with the commands that were last recorded for it. The command buffer is in the recording state, outside of a render
+    // pass. Fails, and records nothing, where an image or constant of the plan is missing, unknown, null, of another size
+    // or, an output, of another format.
+    Result<> record(VkCommandBuffer, int frame, const FrameInputs<Image>&);
+
+    // Of the commands last recorded for that frame, a pass each in the plan's order; empty while the GPU has not finished
+    // them, and where timings were not asked for or the queue family has no timestamps. Waits for nothing. Passes are kept
+    // apart by barriers while they are measured.
+    Result<std::vector<PassTiming>> timings(int frame) const;
+
+    const Plan& plan() const;
+    MemoryUse memoryUse() const;
+
+    // Of an inspectable program: a transient's image, which holds what passes wrote until another transient takes its
+    // memory. Its layout is GENERAL.
+    Result<VkImage> transientImage(std::string_view name) const;
+    // Called while record() records, behind each pass, with its index; empty: never. It may record commands, and has to
+    // order them against the compute shaders before and behind.
+    void onPass(std::function<void(VkCommandBuffer, int)> callback);
+
+    struct State;
+    explicit Program(std::unique_ptr<State>);
+    ~Program();
+    Program(Program&&) noexcept;
+    Program& operator=(Program&&) noexcept;
+
+private:
+    friend class Device;
+    std::unique_ptr<State> state;
+};
+
+} // namespace rebound::vulkan
