@@ -145,7 +145,7 @@ Command addBenchCommand(CLI::App& program) {
         "  rebound bench\n"
         "  rebound bench --size 1920x1080 --preset half-64 --threads 1 --isa scalar --frames 20\n"
         "  rebound bench --json > quarter-64.json");
-    return [options] { return bench(*options); };
+    return [options] { return exitCodeOf(bench(*options)); };
 }
 
 } // namespace rebound::cli

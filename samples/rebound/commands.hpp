@@ -12,11 +12,20 @@ class App;
 
 namespace rebound::cli {
 
-using Command = std::function<Result<>()>;
+// The exit code of a command that has done its work.
+using Command = std::function<Result<int>()>;
+
+// Of a command that succeeds or fails.
+inline Result<int> exitCodeOf(const Result<>& done) {
+    if (!done)
+        return done.error();
+    return 0;
+}
 
 // Each adds a command to the program, and returns what runs it once the command line has been parsed.
 Command addRenderCommand(CLI::App& program);
 Command addBenchCommand(CLI::App& program);
 Command addPlanCommand(CLI::App& program);
+Command addConformCommand(CLI::App& program);
 
 } // namespace rebound::cli

@@ -20,9 +20,9 @@ int fail(std::string message) {
     return failureExit;
 }
 
-int finish() {
+int finish(int code) {
     std::cout.flush();
-    return std::cout ? 0 : fail("cannot write to standard output");
+    return std::cout ? code : fail("cannot write to standard output");
 }
 
 int runProgram(int argc, char** argv) {
@@ -35,7 +35,8 @@ int runProgram(int argc, char** argv) {
         "Exit code: 0, or 2 with one sentence on standard error; a run that fails leaves no file behind.");
     std::vector<std::pair<CLI::App*, rebound::cli::Command>> commands;
     for (auto add :
-         {rebound::cli::addRenderCommand, rebound::cli::addBenchCommand, rebound::cli::addPlanCommand}) {
+         {rebound::cli::addRenderCommand, rebound::cli::addBenchCommand, rebound::cli::addPlanCommand,
+          rebound::cli::addConformCommand}) {
         auto command = add(program);
         commands.emplace_back(program.get_subcommands(nullptr).back(), std::move(command));
     }
@@ -45,14 +46,14 @@ int runProgram(int argc, char** argv) {
         if (end.get_exit_code() != int(CLI::ExitCodes::Success))
             return fail(end.what());
         program.exit(end, std::cout, std::cerr);
-        return finish();
+        return finish(0);
     }
     for (const auto& [app, command] : commands)
         if (app->parsed()) {
             const auto done = command();
-            return done ? finish() : fail(done.error().message);
+            return done ? finish(*done) : fail(done.error().message);
         }
-    return fail("a command is missing; render, bench or plan was expected (rebound --help says more)");
+    return fail("a command is missing; render, bench, plan or conform was expected (rebound --help says more)");
 }
 
 } // namespace

@@ -47,7 +47,7 @@ Command addPlanCommand(CLI::App& program) {
         "\n"
         "Example:\n"
         "  rebound plan --size 1920x1080 --preset half-64");
-    return [options] { return printPlan(*options); };
+    return [options] { return exitCodeOf(printPlan(*options)); };
 }
 
 } // namespace rebound::cli

@@ -162,7 +162,7 @@ Command addRenderCommand(CLI::App& program) {
                 "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
                 "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
                 "  rebound render --frame captured --preset half-256 --precision float");
-    return [options] { return render(*options); };
+    return [options] { return exitCodeOf(render(*options)); };
 }
 
 } // namespace rebound::cli

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Every backend of this machine against the scalar CPU, and a faulty one, which has to be found out.
+#include "conformance/conformance.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+using namespace rebound;
+using namespace rebound::conformance;
+
+namespace {
+
+std::vector<Contender> presentContenders() {
+    std::vector<Contender> contenders;
+    for (cpu::Isa isa : cpu::availableIsas()) {
+        if (isa == cpu::Isa::scalar) continue;
+        runner::BackendChoice choice;
+        choice.isa = isa;
+        auto backend = runner::createBackend(choice);
+        REQUIRE(backend);
+        contenders.push_back({cpu::name(isa), *std::move(backend)});
+    }
+    for (const std::string& name : runner::backendNames()) {
+        if (name == "cpu") continue;
+        runner::BackendChoice choice;
+        choice.backend = name;
+        choice.validation = true;
+        auto backend = runner::createBackend(choice);
+        if (backend) contenders.push_back({name, *std::move(backend)});
+        else MESSAGE("skipped: " << backend.error().message);
+    }
+    return contenders;
+}
+
+void checkAgreement(const std::vector<NamedCase>& cases) {
+    std::vector<Contender> contenders = presentContenders();
+    const auto report = run(cases, contenders);
+    REQUIRE_MESSAGE(report, (report ? "" : report.error().message));
+    CHECK(report->cases == int(cases.size()));
+    for (const Report::Row& row : report->rows) {
+        CAPTURE(row.contender);
+        CAPTURE(row.kernel);
+        CAPTURE(row.worstCase);
+        CAPTURE(row.worstPass);
+        CAPTURE(row.difference.worstExcess);
+        CHECK(row.disagreements == 0);
+    }
+    for (const FrameRow& row : report->frames) {
+        CAPTURE(row.contender);
+        CAPTURE(row.worstCase);
+        CAPTURE(row.maximum);
+        CHECK(row.disagreements == 0);
+    }
+    for (const std::string& complaint : report->complaints) FAIL_CHECK(complaint);
+}
+
+// Runs plans on the CPU and spoils one value of one pass.
+class FaultyPlan : public runner::PreparedPlan {
+public:
+    explicit FaultyPlan(std::unique_ptr<runner::PreparedPlan> p) : plan(std::move(p)) {}
+    Result<double> run() override { return plan->run(); }
+    const std::vector<PassTiming>& timings() const override { return plan->timings(); }
+    MemoryUse memoryUse() const override { return plan->memoryUse(); }
+    Result<lab::Image> read(const std::string& output) override { return plan->read(output); }
+    Result<runner::Record> inspect(const runner::Record* replacement) override {
+        auto record = plan->inspect(replacement);
+        if (record && replacement) record->at(2).at(0).image.at(3, 1)[0] += 1.0f;
+        return record;
+    }
+
+private:
+    std::unique_ptr<runner::PreparedPlan> plan;
+};
+
+class FaultyBackend : public runner::Backend {
+public:
+    runner::BackendInfo info() const override { return {"cpu", "", "faulty", 1}; }
+    Result<MemoryUse> memoryUse(const Plan& plan) const override { return backend->memoryUse(plan); }
+    Result<std::unique_ptr<runner::PreparedPlan>> prepare(const Plan& plan, const runner::PlanInputs& inputs,
+                                                          const runner::PrepareOptions& options) override {
+        auto prepared = backend->prepare(plan, inputs, options);
+        if (!prepared) return prepared.error();
+        return std::unique_ptr<runner::PreparedPlan>(std::make_unique<FaultyPlan>(*std::move(prepared)));
+    }
+
+private:
+    std::unique_ptr<runner::Backend> backend = *runner::createBackend({});
+};
+
+} // namespace
+
+TEST_CASE("backends agree on the hard cases") { checkAgreement(hardCases()); }
+TEST_CASE("backends agree on 100 random G-buffers and settings") { checkAgreement(randomCases(100, 1)); }
+TEST_CASE("backends agree on the lab's scenes") { checkAgreement(sceneCases()); }
+
+TEST_CASE("a fault is found, and named by case, pass, image and texel") {
+    std::vector<Contender> contenders;
+    contenders.push_back({"faulty", std::make_unique<FaultyBackend>()});
+    std::vector<NamedCase> cases = hardCases();
+    std::erase_if(cases, [](const NamedCase& c) { return c.name != "black"; });
+    REQUIRE(cases.size() == 1);
+    const auto report = run(cases, contenders);
+    REQUIRE(report);
+    CHECK_FALSE(report->agrees());
+    REQUIRE(report->disagreements.size() == 1);
+    const Finding& f = report->disagreements[0];
+    CHECK(f.contender == "faulty");
+    CHECK(f.caseName == "black");
+    CHECK(f.pass == "reduce to level 1");
+    CHECK(f.resource == "surface 1");
+    CHECK(f.difference.worstX == 3);
+    CHECK(f.difference.worstY == 1);
+    CHECK(f.difference.worstChannel == 0);
+}
+
+TEST_CASE("cases are the same for the same seed, and others for another") {
+    const auto a = randomCases(3, 1), b = randomCases(3, 1), c = randomCases(3, 2);
+    for (size_t i = 0; i < 3; ++i) {
+        const auto first = a[i].make(), same = b[i].make(), other = c[i].make();
+        REQUIRE(first);
+        REQUIRE(same);
+        REQUIRE(other);
+        CHECK(toText(first->plan) == toText(same->plan));
+        CHECK(first->inputs.images[0].image.data == same->inputs.images[0].image.data);
+        CHECK(toText(first->plan) != toText(other->plan));
+    }
+}
