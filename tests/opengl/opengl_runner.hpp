@@ -40,10 +40,10 @@ void inEachContext(Body body) {
     for (host::OpenGLApi api : {host::OpenGLApi::desktop, host::OpenGLApi::es}) {
         auto context = host::OpenGLContext::create(api);
         if (!context) {
-            MESSAGE(name(api) << " is left out: " << context.error().message);
+            MESSAGE(std::string(name(api)) << " is left out: " << context.error().message);
             continue;
         }
-        INFO(name(api) << ": " << context->description());
+        INFO(context->description());
         checkQuiet(*context);
         body(*context);
         checkQuiet(*context);
