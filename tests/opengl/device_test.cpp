@@ -19,40 +19,6 @@ Plan indirectPlan(Extent2D extent) {
     return *plan;
 }
 
-// a and b have disjoint lifetimes, but not c and d; e has another size, f another format.
-Plan sharingPlan() {
-    const Extent2D extent{16, 8};
-    Plan plan{"test", {}, {}};
-    plan.add({"host", ResourceKind::input, {}, 4, extent, {}, 0});
-    plan.add(bufferResource("constants", std::vector<AccessConstants>{{{16, 8, 0, 0}, {}}}));
-    plan.add({"result", ResourceKind::output, {}, 4, extent, {}, 0});
-    for (const char* name : {"a", "b", "c", "d"})
-        plan.add({name, ResourceKind::transient, Format::rgba32f, 4, extent, {}, 0});
-    const auto copyTo = [&](int image) {
-        plan.passes.push_back({"copy to " + plan.resources[size_t(image)].name,
-                               "copy",
-                               {},
-                               {{0, 0}, {1, image, Access::write}, {2, 1}},
-                               extent});
-    };
-    const auto readFrom = [&](int image) {
-        plan.passes.push_back({"read " + plan.resources[size_t(image)].name,
-                               "access",
-                               {accessFetch},
-                               {{0, image}, {1, 0}, {2, 2, Access::write}, {3, 1}},
-                               extent});
-    };
-    copyTo(3);
-    readFrom(3);
-    copyTo(4);
-    readFrom(4);
-    copyTo(5);
-    copyTo(6);
-    readFrom(5);
-    readFrom(6);
-    return plan;
-}
-
 } // namespace
 
 TEST_CASE("OpenGL: transients share textures of one size and format where lifetimes allow") {
@@ -212,34 +178,6 @@ TEST_CASE("OpenGL: timings of a finished frame where they were asked for, and no
             CHECK(sum > 0.0);
             CHECK(sum <= elapsed.count());
         }
-    });
-}
-
-TEST_CASE("OpenGL: objects have labels, passes are groups") {
-    inEachContext([](host::OpenGLContext&) {
-        opengl::Program program = compile(createDevice(), copyPlan({20, 5}));
-        char label[100] = {};
-        glGetObjectLabel(GL_TEXTURE, *program.transientTexture("source"), sizeof label, nullptr, label);
-        CHECK(std::string(label) == "test: source");
-
-        static std::vector<std::string> groups;
-        groups.clear();
-        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "probe");
-        glPopDebugGroup();
-        const auto collect = [](GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text,
-                                const void*) {
-            if (type == GL_DEBUG_TYPE_PUSH_GROUP)
-                groups.emplace_back(text);
-        };
-        void* user = nullptr;
-        void* callback = nullptr;
-        glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &callback);
-        glGetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &user);
-        glDebugMessageCallback(collect, nullptr);
-        const CopyFrame frame({20, 5});
-        REQUIRE(program.record(frame.inputs()));
-        glDebugMessageCallback(reinterpret_cast<GLDEBUGPROC>(callback), user);
-        CHECK(groups == std::vector<std::string>{"test", "copy", "access"});
     });
 }
 

@@ -4,6 +4,7 @@
 
 #include "opengl_runner.hpp"
 
+#include <array>
 #include <set>
 #include <string_view>
 
@@ -22,6 +23,40 @@ inline Plan copyPlan(Extent2D extent) {
     plan.passes.push_back({"copy", "copy", {}, {{0, 0}, {1, 1, Access::write}, {2, 3}}, extent});
     plan.passes.push_back(
         {"access", "access", {accessOffset}, {{0, 1}, {1, 0}, {2, 2, Access::write}, {3, 4}}, extent});
+    return plan;
+}
+
+// a and b have disjoint lifetimes, but not c and d; e has another size, f another format.
+inline Plan sharingPlan() {
+    const Extent2D extent{16, 8};
+    Plan plan{"test", {}, {}};
+    plan.add({"host", ResourceKind::input, {}, 4, extent, {}, 0});
+    plan.add(bufferResource("constants", std::vector<AccessConstants>{{{16, 8, 0, 0}, {}}}));
+    plan.add({"result", ResourceKind::output, {}, 4, extent, {}, 0});
+    for (const char* name : {"a", "b", "c", "d"})
+        plan.add({name, ResourceKind::transient, Format::rgba32f, 4, extent, {}, 0});
+    const auto copyTo = [&](int image) {
+        plan.passes.push_back({"copy to " + plan.resources[size_t(image)].name,
+                               "copy",
+                               {},
+                               {{0, 0}, {1, image, Access::write}, {2, 1}},
+                               extent});
+    };
+    const auto readFrom = [&](int image) {
+        plan.passes.push_back({"read " + plan.resources[size_t(image)].name,
+                               "access",
+                               {accessFetch},
+                               {{0, image}, {1, 0}, {2, 2, Access::write}, {3, 1}},
+                               extent});
+    };
+    copyTo(3);
+    readFrom(3);
+    copyTo(4);
+    readFrom(4);
+    copyTo(5);
+    copyTo(6);
+    readFrom(5);
+    readFrom(6);
     return plan;
 }
 
@@ -60,6 +95,13 @@ struct FakeOpenGL {
     static inline bool memoryIsShort = false;       // glTexStorage2D fails
     static inline GLenum error = GL_NO_ERROR;
     static inline std::set<std::string> missing; // functions that the loader does not find
+    // In order: glMemoryBarrier's bits, and dispatches.
+    struct Command {
+        GLbitfield barrier = 0;
+        std::array<GLuint, 3> groups{};
+        friend bool operator==(const Command&, const Command&) = default;
+    };
+    static inline std::vector<Command> commands;
 
     static void reset() {
         live.clear();
@@ -69,6 +111,7 @@ struct FakeOpenGL {
         memoryIsShort = false;
         error = GL_NO_ERROR;
         missing.clear();
+        commands.clear();
     }
 
     template <char kind, auto generate>
@@ -115,6 +158,14 @@ struct FakeOpenGL {
         bufferBytes += size_t(size);
         glBufferData(target, size, data, usage);
     }
+    static void APIENTRY memoryBarrier(GLbitfield bits) {
+        commands.push_back({bits, {}});
+        glMemoryBarrier(bits);
+    }
+    static void APIENTRY dispatchCompute(GLuint x, GLuint y, GLuint z) {
+        commands.push_back({0, {x, y, z}});
+        glDispatchCompute(x, y, z);
+    }
     static GLenum APIENTRY getError() {
         const GLenum real = glGetError();
         return std::exchange(error, GLenum(GL_NO_ERROR)) | real;
@@ -146,6 +197,8 @@ struct FakeOpenGL {
             {"glDeleteShader", pointer(deleteShader)},
             {"glTexStorage2D", pointer(texStorage2D)},
             {"glBufferData", pointer(bufferData)},
+            {"glMemoryBarrier", pointer(memoryBarrier)},
+            {"glDispatchCompute", pointer(dispatchCompute)},
             {"glGetError", pointer(getError)},
             {"glGetIntegerv", pointer(getIntegerv)},
             {"glGetString", pointer(getString)},
