@@ -19,6 +19,11 @@ if(REBOUND_BUILD_VULKAN)
     install(TARGETS rebound_vulkan EXPORT rebound-targets)
     install(DIRECTORY backends/vulkan/include/rebound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
+if(REBOUND_BUILD_OPENGL)
+    set_target_properties(rebound_opengl PROPERTIES EXPORT_NAME opengl)
+    install(TARGETS rebound_opengl EXPORT rebound-targets)
+    install(DIRECTORY backends/opengl/include/rebound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
 install(EXPORT rebound-targets NAMESPACE rebound:: DESTINATION ${package_folder})
 
 configure_package_config_file(cmake/rebound-config.cmake.in ${generated_folder}/rebound-config.cmake

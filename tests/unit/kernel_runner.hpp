@@ -89,28 +89,34 @@ struct KernelCall {
     Extent2D grid;
 };
 
-inline Picture runKernel(cpu::Isa isa, const KernelCall& call) {
+// A plan of one pass that makes the call. Its inputs come first, in the call's order; its output is "result".
+inline Plan planOf(const KernelCall& call) {
     Plan plan{"test", {}, {}};
     Pass pass{"pass", call.kernel, call.features, {}, call.grid};
-    FrameInputs<cpu::Image> inputs;
-    Picture result(call.grid, 4);
-    std::vector<std::string> names;
     for (const auto& [slot, picture] : call.inputs)
-        names.push_back("input " + std::to_string(slot));
-    for (size_t i = 0; i < call.inputs.size(); ++i) {
-        const auto& [slot, picture] = call.inputs[i];
-        const auto index =
-            plan.add({names[i], ResourceKind::input, {}, picture->channels, picture->extent, {}, 0});
-        pass.bindings.push_back({slot, index});
-        inputs.images.push_back({names[i], picture->image()});
-    }
+        pass.bindings.push_back({slot, plan.add({"input " + std::to_string(slot),
+                                                 ResourceKind::input,
+                                                 {},
+                                                 picture->channels,
+                                                 picture->extent,
+                                                 {},
+                                                 0})});
     for (const auto& [slot, data] : call.constants)
         pass.bindings.push_back({slot, plan.add(bufferResource("constants " + std::to_string(slot), data))});
     pass.bindings.push_back({call.outputSlot,
                              plan.add({"result", ResourceKind::output, {}, 4, call.grid, {}, 0}),
                              Access::write});
-    inputs.images.push_back({"result", result.image()});
     plan.passes.push_back(pass);
+    return plan;
+}
+
+inline Picture runKernel(cpu::Isa isa, const KernelCall& call) {
+    const Plan plan = planOf(call);
+    FrameInputs<cpu::Image> inputs;
+    Picture result(call.grid, 4);
+    for (size_t i = 0; i < call.inputs.size(); ++i)
+        inputs.images.push_back({plan.resources[i].name, call.inputs[i].second->image()});
+    inputs.images.push_back({"result", result.image()});
     auto program = deviceFor(isa).compile(plan);
     REQUIRE_MESSAGE(program, (program ? "" : program.error().message));
     REQUIRE(program->record(inputs));

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "image_check.hpp"
+#include "program_state.hpp"
+
+#include "rebound/detail/kernel_check.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rebound::opengl {
+
+const Shader* Device::Shared::findShader(std::string_view name) const {
+    for (const auto& table : shaders)
+        for (const Shader* shader : table)
+            if (shader->name == name)
+                return shader;
+    return nullptr;
+}
+
+namespace {
+
+Error exceeds(const std::string& what, int64_t value, const char* unit, int64_t limit) {
+    return {ErrorCode::unsupported,
+            what + std::to_string(value) + " " + unit + "; this context allows " + std::to_string(limit)};
+}
+
+Result<> checkResources(const Plan& plan, const Limits& limits) {
+    for (const Resource& r : plan.resources) {
+        const int side = std::max(r.extent.width, r.extent.height);
+        if (detail::isImage(r.kind) && side > limits.textureSize)
+            return exceeds("plan.resources: " + r.name + " has a side of ", side, "texels",
+                           limits.textureSize);
+    }
+    return {};
+}
+
+Result<> checkCounts(const Shader& shader, const Limits& limits) {
+    const UnitCounts counts = unitsOf(shader.info).counts;
+    const std::string what = "the kernel " + std::string(shader.name) + " uses ";
+    if (counts.textures > limits.textures)
+        return exceeds(what, counts.textures, "textures", limits.textures);
+    if (counts.images > limits.images)
+        return exceeds(what, counts.images, "images to write", limits.images);
+    if (counts.uniformBlocks > limits.uniformBlocks)
+        return exceeds(what, counts.uniformBlocks, "uniform blocks", limits.uniformBlocks);
+    if (counts.storageBlocks > limits.storageBlocks)
+        return exceeds(what, counts.storageBlocks, "storage blocks", limits.storageBlocks);
+    return {};
+}
+
+Result<> checkBlocks(const Plan& plan, const Pass& pass, const Shader& shader, const Limits& limits) {
+    for (const PassBinding& b : pass.bindings) {
+        const Resource& r = plan.resources[size_t(b.resource)];
+        const BindingKind kind = shader.info.kinds[b.slot];
+        const int64_t limit = kind == BindingKind::buffer ? limits.storageBlock : limits.uniformBlock;
+        if (!detail::isImage(r.kind) && int64_t(r.size) > limit)
+            return exceeds("plan.resources: " + r.name + " has ", int64_t(r.size), "bytes", limit);
+    }
+    return {};
+}
+
+// Images that are written have the format that the kernel declares: a transient is given the plan's, an
+// output is checked in each frame.
+Result<> checkFormats(const Plan& plan, const Pass& pass, const Shader& shader,
+                      std::vector<std::optional<Format>>& outputs) {
+    for (const PassBinding& b : pass.bindings) {
+        if (b.access == Access::read)
+            continue;
+        const Resource& r = plan.resources[size_t(b.resource)];
+        const Format declared = shader.formats[b.slot];
+        std::optional<Format>& output = outputs[size_t(b.resource)];
+        if (!output)
+            output = r.kind == ResourceKind::transient ? r.format : declared;
+        if (declared != *output)
+            return invalidArgument("plan.passes: " + pass.label + " writes " + r.name + ", which is " +
+                                   name(*output) + ", to slot " + std::to_string(b.slot) + " of " +
+                                   std::string(shader.name) + ", which is " + name(declared));
+    }
+    return {};
+}
+
+// All that can be said without asking OpenGL.
+Result<> checkPlan(const Device::Shared& device, const Plan& plan, Program::State& state) {
+    if (auto valid = validate(plan); !valid)
+        return valid.error();
+    const Limits& limits = device.gl->limits;
+    if (auto valid = checkResources(plan, limits); !valid)
+        return valid.error();
+    std::vector<std::optional<Format>> formats(plan.resources.size());
+    for (const Pass& pass : plan.passes) {
+        const Shader* shader = device.findShader(pass.kernel);
+        if (!shader)
+            return detail::unknownKernel(pass);
+        if (auto valid = detail::checkKernelUse(plan, pass, shader->name, shader->info); !valid)
+            return valid.error();
+        if (auto valid = checkCounts(*shader, limits); !valid)
+            return valid.error();
+        if (auto valid = checkBlocks(plan, pass, *shader, limits); !valid)
+            return valid.error();
+        if (auto valid = checkFormats(plan, pass, *shader, formats); !valid)
+            return valid.error();
+    }
+    for (size_t i = 0; i < formats.size(); ++i)
+        state.outputFormats.push_back(formats[i].value_or(plan.resources[i].format));
+    return {};
+}
+
+Result<> checkContext(const Gl& gl) {
+    if (!gl.GetString(GL_VERSION))
+        return invalidArgument(
+            "no OpenGL context is current; the one that the device was created in was expected");
+    // Reading an error clears it: so it is handed on, for the host to know.
+    if (const GLenum error = gl.GetError(); error != GL_NO_ERROR)
+        return invalidArgument(errorName(error) + " was pending before compile(); no error was expected");
+    return {};
+}
+
+Result<CompiledPass> compilePass(const Device::Shared& device, const Plan& plan, const Pass& pass,
+                                 GLbitfield barrier) {
+    const Shader* shader = device.findShader(pass.kernel);
+    std::weak_ptr<const ShaderProgram>& known = device.built[{shader, pass.features}];
+    CompiledPass compiled;
+    compiled.program = known.lock();
+    if (!compiled.program) {
+        auto built = buildProgram(device.gl, *shader, pass.features);
+        if (!built)
+            return built.error();
+        known = compiled.program = *built;
+    }
+    // Once more, now that sizes are known.
+    const ShaderProgram& program = *compiled.program;
+    if (auto valid = detail::checkKernelUse(plan, pass, shader->name, program.info); !valid)
+        return valid.error();
+    for (const PassBinding& b : pass.bindings)
+        compiled.slots.push_back({shader->info.kinds[b.slot], GLuint(program.units.bySlot[b.slot]),
+                                  b.resource, shader->formats[b.slot]});
+    compiled.barrierBefore = barrier;
+    compiled.groups[0] = GLuint((pass.grid.width + shaderGroupSize - 1) / shaderGroupSize);
+    compiled.groups[1] = GLuint((pass.grid.height + shaderGroupSize - 1) / shaderGroupSize);
+    return compiled;
+}
+
+void createTextures(Program::State& state) {
+    const Gl& gl = *state.gl;
+    gl.ActiveTexture(GL_TEXTURE0);
+    for (const TextureUse& use : state.memory.textures) {
+        const Object& texture = state.textures.emplace_back(state.gl, ObjectKind::texture);
+        gl.BindTexture(GL_TEXTURE_2D, texture.name());
+        gl.TexStorage2D(GL_TEXTURE_2D, 1, internalFormat(use.format), use.extent.width, use.extent.height);
+        gl.label(GL_TEXTURE, texture.name(), state.plan.technique + ": " + use.label);
+    }
+    state.sampler = Object(state.gl, ObjectKind::sampler);
+    gl.SamplerParameteri(state.sampler.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.SamplerParameteri(state.sampler.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.SamplerParameteri(state.sampler.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.SamplerParameteri(state.sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void createBuffers(Program::State& state) {
+    const Gl& gl = *state.gl;
+    if (state.memory.buffers > 0) {
+        std::vector<std::byte> bytes(state.memory.buffers);
+        for (size_t i = 0; i < state.plan.resources.size(); ++i)
+            if (const Resource& r = state.plan.resources[i]; r.kind == ResourceKind::buffer)
+                std::memcpy(bytes.data() + state.memory.bufferOffsets[i], r.data.data(), r.size);
+        state.buffers = Object(state.gl, ObjectKind::buffer);
+        gl.BindBuffer(GL_UNIFORM_BUFFER, state.buffers.name());
+        gl.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes.size()), bytes.data(), GL_STATIC_DRAW);
+        gl.label(GL_BUFFER, state.buffers.name(), state.plan.technique + ": constants and sample patterns");
+    }
+    if (state.memory.frameConstants > 0) {
+        state.frameConstants = Object(state.gl, ObjectKind::buffer);
+        gl.BindBuffer(GL_UNIFORM_BUFFER, state.frameConstants.name());
+        gl.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(state.memory.frameConstants), nullptr, GL_STREAM_DRAW);
+        gl.label(GL_BUFFER, state.frameConstants.name(), state.plan.technique + ": frame constants");
+    }
+}
+
+Result<> checkAllocations(const Gl& gl, const MemoryUse& use) {
+    const GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR)
+        return {};
+    if (error == GL_OUT_OF_MEMORY)
+        return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(use.total()) +
+                                                 " bytes, which OpenGL could not allocate"};
+    return Error{ErrorCode::unsupported, "OpenGL refuses what the plan needs: " + errorName(error)};
+}
+
+} // namespace
+
+Result<Device> Device::create(const DeviceOptions& options) {
+    auto gl = Gl::load(options.loader);
+    if (!gl)
+        return gl.error();
+    auto shared = std::make_shared<Shared>();
+    shared->gl = *gl;
+    shared->timings = options.timings && (*gl)->QueryCounter;
+    shared->shaders = options.moreShaders;
+    shared->shaders.push_back(techniqueShaders());
+    Device device;
+    device.shared = std::move(shared);
+    return device;
+}
+
+bool Device::isEs() const {
+    return shared->gl->es;
+}
+bool Device::hasTimings() const {
+    return shared->timings;
+}
+
+MemoryUse Device::memoryUse(const Plan& plan) const {
+    return validate(plan) ? planMemory(plan, shared->gl->limits.alignment).use : MemoryUse{};
+}
+
+Result<Program> Device::compile(const Plan& plan) const {
+    auto state = std::make_unique<Program::State>();
+    state->device = shared;
+    state->gl = shared->gl;
+    const Gl& gl = *shared->gl;
+    if (auto valid = checkPlan(*shared, plan, *state); !valid)
+        return valid.error();
+    if (auto valid = checkContext(gl); !valid)
+        return valid.error();
+    state->plan = plan;
+    state->memory = planMemory(plan, gl.limits.alignment);
+    const StateGuard guard(gl, {1, 0, 0, 0});
+    const std::vector<GLbitfield> barriers = barriersBefore(plan, state->memory);
+    state->units.textures = 1; // that images are checked on
+    for (size_t i = 0; i < plan.passes.size(); ++i) {
+        auto compiled = compilePass(*shared, plan, plan.passes[i], barriers[i]);
+        if (!compiled)
+            return compiled.error();
+        UnitCounts& most = state->units;
+        const UnitCounts& counts = compiled->program->units.counts;
+        most.textures = std::max(most.textures, counts.textures);
+        most.images = std::max(most.images, counts.images);
+        most.uniformBlocks = std::max(most.uniformBlocks, counts.uniformBlocks);
+        most.storageBlocks = std::max(most.storageBlocks, counts.storageBlocks);
+        state->passes.push_back(std::move(*compiled));
+    }
+    createTextures(*state);
+    createBuffers(*state);
+    if (shared->timings)
+        state->timer.emplace(state->gl, plan);
+    if (auto allocated = checkAllocations(gl, state->memory.use); !allocated)
+        return allocated.error();
+    return Program(std::move(state));
+}
+
+} // namespace rebound::opengl

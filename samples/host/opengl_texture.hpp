@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Textures of a host, from images of the lab and back.
+#pragma once
+
+#include "lab/image.hpp"
+#include "rebound/plan.hpp"
+#include "rebound/result.hpp"
+
+namespace rebound::host {
+
+// A GL_TEXTURE_2D of one level that its owner deletes: the context it was made in must be current then.
+class OpenGLTexture {
+public:
+    OpenGLTexture() = default;
+    OpenGLTexture(Format, Extent2D);
+    // Row 0 of the image becomes row 0 of the texture; channels that the image lacks are 0, alpha 1.
+    OpenGLTexture(Format, const lab::Image&);
+    OpenGLTexture(OpenGLTexture&&) noexcept;
+    OpenGLTexture& operator=(OpenGLTexture&&) noexcept;
+    ~OpenGLTexture();
+
+    unsigned name() const { return texture; }
+    Extent2D extent() const { return size; }
+
+private:
+    unsigned texture = 0;
+    Extent2D size;
+};
+
+// The first channels of a texture that can be drawn to; row 0 of the texture becomes row 0 of the image.
+Result<lab::Image> readTexture(unsigned texture, Extent2D, int channels);
+
+} // namespace rebound::host
