@@ -163,7 +163,7 @@ Result<Report> run(const std::vector<NamedCase>& cases, std::vector<Contender>& 
     };
     std::stable_sort(report.rows.begin(), report.rows.end(),
                      [&](const Report::Row& a, const Report::Row& b) { return orderOf(a) < orderOf(b); });
-    for (const Contender& contender : contenders)
+    for (Contender& contender : contenders)
         for (const std::string& complaint : contender.backend->complaints())
             report.complaints.push_back(contender.name + ": " + complaint);
     return report;

@@ -34,16 +34,7 @@ OpenGLTexture::OpenGLTexture(Format format, Extent2D e) : size(e) {
 }
 
 OpenGLTexture::OpenGLTexture(Format format, const lab::Image& image) : OpenGLTexture(format, image.extent()) {
-    std::vector<float> texels = withFourChannels(image);
-    GLenum layout = GL_RGBA;
-    if (format == Format::r32f) {
-        layout = GL_RED;
-        for (size_t i = 0; i < texels.size() / 4; ++i)
-            texels[i] = texels[4 * i];
-    }
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, layout, GL_FLOAT, texels.data());
-    glBindTexture(GL_TEXTURE_2D, 0);
+    writeTexture(texture, format, image);
 }
 
 OpenGLTexture::OpenGLTexture(OpenGLTexture&& other) noexcept
@@ -58,6 +49,21 @@ OpenGLTexture& OpenGLTexture::operator=(OpenGLTexture&& other) noexcept {
 OpenGLTexture::~OpenGLTexture() {
     if (texture != 0)
         glDeleteTextures(1, &texture);
+}
+
+void writeTexture(unsigned texture, Format format, const lab::Image& image) {
+    std::vector<float> texels = withFourChannels(image);
+    GLenum layout = GL_RGBA;
+    if (format == Format::r32f) {
+        layout = GL_RED;
+        for (size_t i = 0; i < texels.size() / 4; ++i)
+            texels[i] = texels[4 * i];
+    }
+    GLint before = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, layout, GL_FLOAT, texels.data());
+    glBindTexture(GL_TEXTURE_2D, GLuint(before));
 }
 
 Result<lab::Image> readTexture(unsigned texture, Extent2D extent, int channels) {

@@ -13,7 +13,7 @@ class OpenGLTexture {
 public:
     OpenGLTexture() = default;
     OpenGLTexture(Format, Extent2D);
-    // Row 0 of the image becomes row 0 of the texture; channels that the image lacks are 0, alpha 1.
+    // As writeTexture() has it.
     OpenGLTexture(Format, const lab::Image&);
     OpenGLTexture(OpenGLTexture&&) noexcept;
     OpenGLTexture& operator=(OpenGLTexture&&) noexcept;
@@ -26,6 +26,10 @@ private:
     unsigned texture = 0;
     Extent2D size;
 };
+
+// Replaces all of a texture of that format; row 0 of the image becomes row 0 of the texture. Channels that the image lacks
+// are 0, alpha 1.
+void writeTexture(unsigned texture, Format, const lab::Image&);
 
 // The first channels of a texture that can be drawn to; row 0 of the texture becomes row 0 of the image.
 Result<lab::Image> readTexture(unsigned texture, Extent2D, int channels);

@@ -73,8 +73,8 @@ public:
     virtual BackendInfo info() const = 0;
     virtual Result<MemoryUse> memoryUse(const Plan&) const = 0;
     virtual Result<std::unique_ptr<PreparedPlan>> prepare(const Plan&, const PlanInputs&, const PrepareOptions&) = 0;
-    // What a driver's checks have complained about; asked for with BackendChoice::validation.
-    virtual std::vector<std::string> complaints() const { return {}; }
+    // What a driver's checks have complained about since they were last asked; asked for with BackendChoice::validation.
+    virtual std::vector<std::string> complaints() { return {}; }
 };
 
 struct BackendChoice {

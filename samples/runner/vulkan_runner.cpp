@@ -176,7 +176,7 @@ public:
 
     BackendInfo info() const override { return {"vulkan", context.deviceName(), "", 0}; }
     Result<MemoryUse> memoryUse(const Plan& plan) const override { return device.memoryUse(plan, {1, nullptr, false}); }
-    std::vector<std::string> complaints() const override { return context.messages(); }
+    std::vector<std::string> complaints() override { return context.messages(); }
 
     Result<std::unique_ptr<PreparedPlan>> prepare(const Plan& plan, const PlanInputs& inputs,
                                                   const PrepareOptions& options) override {
