@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/kernel/kernel.h"
+#include "rebound/techniques/camera_constants.h"
+#include "rebound/techniques/input_check_constants.h"
+#include "rebound/math/packing.h"
+#include "rebound/math/view_position.h"
+#include "rebound/math/gbuffer.h"
+#include "rebound/math/input_statistics.h"
+
+// Counts surfaces by what their light holds, and, with albedo, by how it follows albedo from pixel to pixel.
+// In the order of LightStatistic.
+RB_KERNEL(Light)
+RB_FEATURE(0, projection, 2)
+RB_FEATURE(1, withAlbedo, 2)
+RB_INPUT(0, depth)
+RB_INPUT(1, normal)
+RB_INPUT(2, albedo)
+RB_INPUT(3, light)
+RB_IMAGE(4, rgba32f, sums0)
+RB_IMAGE(5, rgba32f, sums1)
+RB_IMAGE(6, rgba32f, sums2)
+RB_IMAGE(7, rgba32f, sums3)
+RB_CONSTANTS(8, CameraConstants, camera)
+RB_CONSTANTS(9, TileConstants, k)
+RB_MAIN(pixel, k.grid)
+    Vec4 s0 = Vec4(0.0f);
+    Vec4 s1 = Vec4(0.0f);
+    Vec4 s2 = Vec4(0.0f);
+    for (int j = 0; j < k.grid.w; ++j)
+        for (int i = 0; i < k.grid.z; ++i) {
+            ivec2 offset = ivec2(i * k.grid.x, j * k.grid.y);
+            Vec2 at = pixelCenter(pixel) + Vec2(Real(float(offset.x)), Real(float(offset.y)));
+            Surface surface = plainSurface(camera, at, fetchOffset(depth, pixel, offset),
+                                           fetchOffset(normal, pixel, offset), projection);
+            Mask lit = liesInside(at, k.size, 0.0f) && surface.z > 0.0f;
+            Vec4 texel = fetchOffset(light, pixel, offset);
+            Vec3 l = Vec3(texel.x, texel.y, texel.z);
+            Mask number = lit && isFinite3(l);
+            s0 += Vec4(count(lit), count(lit && !isFinite3(l)), count(number && smallest(l) < 0.0f),
+                       count(number && largest(l) >= 65500.0f));
+            s1 += Vec4(count(number && largest(l) <= 0.0f), select(number, min(max(largest(l), Real(0.0f)), Real(65504.0f)), Real(0.0f)),
+                       Real(0.0f), Real(0.0f));
+            if (withAlbedo == 1) {
+                Vec4 ownAlbedo = fetchOffset(albedo, pixel, offset);
+                Vec3 a = Vec3(ownAlbedo.x, ownAlbedo.y, ownAlbedo.z);
+                Vec3 position = viewPosition(viewRay(camera, at), surface.z, projection);
+                // Right and lower neighbour, then pairs further apart.
+                for (int pair = 0; pair < 6; ++pair) {
+                    int apart = pair < 2 ? 1 : (pair < 4 ? 8 : 32);
+                    ivec2 o = offset + ivec2((pair & 1) == 0 ? apart : 0, (pair & 1) == 1 ? apart : 0);
+                    Vec2 there = pixelCenter(pixel) + Vec2(Real(float(o.x)), Real(float(o.y)));
+                    Vec4 otherTexel = fetchOffset(light, pixel, o);
+                    Vec4 otherAlbedo = fetchOffset(albedo, pixel, o);
+                    Vec3 l2 = Vec3(otherTexel.x, otherTexel.y, otherTexel.z);
+                    Vec3 a2 = Vec3(otherAlbedo.x, otherAlbedo.y, otherAlbedo.z);
+                    Surface other = plainSurface(camera, there, fetchOffset(depth, pixel, o),
+                                                 fetchOffset(normal, pixel, o), projection);
+                    Mask both = number && liesInside(there, k.size, 0.0f) && other.z > 0.0f && isFinite3(l2) &&
+                                isFinite3(a) && isFinite3(a2);
+                    if (pair < 2) {
+                        Vec3 apartBy = viewPosition(viewRay(camera, there), other.z, projection) - position;
+                        Real off = dot(surface.normal, apartBy);
+                        Mask same = both && dot(surface.normal, other.normal) > 0.95f &&
+                                    off * off < dot(apartBy, apartBy) * 0.1f;
+                        Vec3 votes = edgeVote(a.x, a2.x, l.x, l2.x) + edgeVote(a.y, a2.y, l.y, l2.y) +
+                                     edgeVote(a.z, a2.z, l.z, l2.z);
+                        votes = select(same, votes, Vec3(0.0f));
+                        s2 += Vec4(votes.x, votes.y, votes.z, Real(0.0f));
+                    } else {
+                        Vec2 votes = darkVote(a, a2, l, l2);
+                        votes = select(both, votes, Vec2(0.0f));
+                        s1 += Vec4(Real(0.0f), Real(0.0f), votes.x, votes.y);
+                    }
+                }
+            }
+        }
+    store(sums0, pixel, s0);
+    store(sums1, pixel, s1);
+    store(sums2, pixel, s2);
+    store(sums3, pixel, Vec4(0.0f));
+RB_END_KERNEL
