@@ -7,21 +7,29 @@
 #include "rebound/math/gbuffer.h"
 #include "rebound/math/input_statistics.h"
 
+// Light less what the surface emits itself.
+RB_FUNCTION Vec3 reflected(Vec3 light, Vec4 emitted)
+{
+    return max(light - Vec3(emitted.x, emitted.y, emitted.z), 0.0f);
+}
+
 // Counts surfaces by what their light holds, and, with albedo, by how it follows albedo from pixel to pixel.
 // In the order of LightStatistic.
 RB_KERNEL(Light)
 RB_FEATURE(0, projection, 2)
 RB_FEATURE(1, withAlbedo, 2)
+RB_FEATURE(2, withEmission, 2)
 RB_INPUT(0, depth)
 RB_INPUT(1, normal)
 RB_INPUT(2, albedo)
-RB_INPUT(3, light)
-RB_IMAGE(4, rgba32f, sums0)
-RB_IMAGE(5, rgba32f, sums1)
-RB_IMAGE(6, rgba32f, sums2)
-RB_IMAGE(7, rgba32f, sums3)
-RB_CONSTANTS(8, CameraConstants, camera)
-RB_CONSTANTS(9, TileConstants, k)
+RB_INPUT(3, emission)
+RB_INPUT(4, light)
+RB_IMAGE(5, rgba32f, sums0)
+RB_IMAGE(6, rgba32f, sums1)
+RB_IMAGE(7, rgba32f, sums2)
+RB_IMAGE(8, rgba32f, sums3)
+RB_CONSTANTS(9, CameraConstants, camera)
+RB_CONSTANTS(10, TileConstants, k)
 RB_MAIN(pixel, k.grid)
     Vec4 s0 = Vec4(0.0f);
     Vec4 s1 = Vec4(0.0f);
@@ -38,11 +46,11 @@ RB_MAIN(pixel, k.grid)
             Mask number = lit && isFinite3(l);
             s0 += Vec4(count(lit), count(lit && !isFinite3(l)), count(number && smallest(l) < 0.0f),
                        count(number && largest(l) >= 65500.0f));
-            s1 += Vec4(count(number && largest(l) <= 0.0f), select(number, min(max(largest(l), Real(0.0f)), Real(65504.0f)), Real(0.0f)),
-                       Real(0.0f), Real(0.0f));
+            s1 += Vec4(count(number && largest(l) <= 0.0f), Real(0.0f), Real(0.0f), Real(0.0f));
             if (withAlbedo == 1) {
                 Vec4 ownAlbedo = fetchOffset(albedo, pixel, offset);
                 Vec3 a = Vec3(ownAlbedo.x, ownAlbedo.y, ownAlbedo.z);
+                if (withEmission == 1) l = reflected(l, fetchOffset(emission, pixel, offset));
                 Vec3 position = viewPosition(viewRay(camera, at), surface.z, projection);
                 // Right and lower neighbour, then pairs further apart.
                 for (int pair = 0; pair < 6; ++pair) {
@@ -53,6 +61,7 @@ RB_MAIN(pixel, k.grid)
                     Vec4 otherAlbedo = fetchOffset(albedo, pixel, o);
                     Vec3 l2 = Vec3(otherTexel.x, otherTexel.y, otherTexel.z);
                     Vec3 a2 = Vec3(otherAlbedo.x, otherAlbedo.y, otherAlbedo.z);
+                    if (withEmission == 1) l2 = reflected(l2, fetchOffset(emission, pixel, o));
                     Surface other = plainSurface(camera, there, fetchOffset(depth, pixel, o),
                                                  fetchOffset(normal, pixel, o), projection);
                     Mask both = number && liesInside(there, k.size, 0.0f) && other.z > 0.0f && isFinite3(l2) &&

@@ -32,7 +32,7 @@ RB_MAIN(pixel, k.grid)
             // Half floats and filtering leave a little below 0 and above 1.
             s0 += Vec4(count(surface), count(surface && !isFinite3(a)), count(number && smallest(a) < -0.01f),
                        count(number && largest(a) > 1.01f));
-            s1 += Vec4(count(number && smallest(a) > 0.999f), count(number && largest(a) < 1e-4f),
+            s1 += Vec4(count(number && smallest(a) > 0.999f && largest(a) < 1.01f), count(number && largest(a) < 1e-4f),
                        select(number, (a.x + a.y + a.z) * 0.333333333f, Real(0.0f)), Real(0.0f));
         }
     store(sums0, pixel, s0);

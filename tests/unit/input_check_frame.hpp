@@ -13,7 +13,7 @@ namespace rebound::test {
 struct CheckFrame {
     InputCheckSettings settings;
     Camera camera, previousCamera;
-    Picture depth, normal, albedo, radiance, lit, motion;
+    Picture depth, normal, albedo, radiance, lit, emission, motion;
 };
 
 // Turns and moves the world, so that world and view space differ in every axis.
@@ -90,7 +90,8 @@ inline InputStatistics measure(CheckFrame& f, const cpu::Device& device) {
     REQUIRE_MESSAGE(program, (program ? "" : program.error().message));
     const InputCheckFrame<cpu::Image> frame{f.camera,          f.previousCamera, f.depth.image(),
                                             f.normal.image(),  f.albedo.image(), f.radiance.image(),
-                                            f.lit.image(),     f.motion.image(), statistics.image()};
+                                            f.lit.image(),     f.emission.image(), f.motion.image(),
+                                            statistics.image()};
     auto inputs = inputCheckInputs(f.settings, frame);
     REQUIRE_MESSAGE(inputs, (inputs ? "" : inputs.error().message));
     const auto recorded = program->record(*inputs);

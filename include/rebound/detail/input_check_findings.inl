@@ -43,7 +43,7 @@ inline double medianOf(const float* counts, double total, double bound, double s
     for (int i = 0; i < 8; ++i, bound *= step) {
         const double next = double(counts[i]);
         if (next < 0.5 * total) {
-            if (i == 0) return bound;
+            if (i == 0) return bound / step; // less than the first bound, by no one knows how much
             const double part = (above - 0.5 * total) / std::max(above - next, 1.0);
             return bound * std::pow(step, part - 1.0);
         }
@@ -66,10 +66,17 @@ public:
         if (surfaces() > 0.0) {
             examineDistances();
             examineNormals();
-            examineGeometry();
+        }
+        examineGeometry();
+        if (surfaces() > 0.0) {
             examineAlbedo();
             examineLight();
             examineMotion();
+        } else if (findings.empty()) {
+            const double empty = value(4) / std::max(pixels(), 1.0);
+            addSuspicion(InputProblem::noSurfaces, empty,
+                         "no pixel holds a surface at 1e-6 to 1e7 m: depth is that of the sky at " + percent(empty) +
+                             " of the pixels; unless the camera looks at nothing, depth was cleared or not written");
         }
         return std::move(findings);
     }
@@ -127,10 +134,6 @@ private:
                            " of the pixels, which is the near plane, since conventions.depthDirection says " +
                            (reversed ? "reversed" : "forward") + "; probably it is " + (reversed ? "forward" : "reversed") +
                            " and that is the sky, or depth was never written");
-        if (surfaces() == 0.0)
-            addSuspicion(InputProblem::noSurfaces, value(4) / total,
-                         "no pixel holds a surface: depth is that of the sky at " + percent(value(4) / total) +
-                             " of the pixels; unless the camera looks at nothing, depth was cleared or not written");
     }
 
     // Do distances fit the camera, and a float?
@@ -233,6 +236,7 @@ inline const char* describe(NormalChange change) {
 }
 
 inline void InputExaminer::examineGeometry() {
+    if (found(InputProblem::depthNegative)) return; // no reading that is tried takes it for what it is
     const std::vector<GeometryReading> readings = geometryReadings(settings, camera, statistics);
     const GeometryReading best = explain(readings);
     double stated = 0.0;

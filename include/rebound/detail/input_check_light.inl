@@ -96,8 +96,8 @@ inline void InputExaminer::examineAlbedoInRadiance() {
         addSuspicion(InputProblem::radianceSpecular, shining,
                      "radiance of surfaces with an albedo below 0.02 is more than half of that of brighter surfaces nearby, at " +
                          percent(shining) + " of " + shortText(pairs) +
-                         " pairs; nearly none was expected of diffuse light: probably specular light is in it, unless these "
-                         "surfaces emit light");
+                         " pairs; nearly none was expected of diffuse light: probably specular light is in it" +
+                         (settings.emission ? "" : ", unless these surfaces emit light (settings.emission)"));
 }
 
 inline void InputExaminer::examineMotion() {

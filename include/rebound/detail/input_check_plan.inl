@@ -28,7 +28,7 @@ public:
 private:
     InputCheckSettings settings;
     Plan plan;
-    ResourceIndex depth = -1, normal = -1, albedo = -1, radiance = -1, lit = -1, motion = -1;
+    ResourceIndex depth = -1, normal = -1, albedo = -1, radiance = -1, lit = -1, emission = -1, motion = -1;
     ResourceIndex camera = -1, tiles = -1, foldTiles = -1, totalTiles = -1;
     std::array<ResourceIndex, size_t(statisticRowCount)> rows;
     Extent2D grid, foldGrid; // enough texels for all of a processor; few enough for the next step
@@ -54,6 +54,7 @@ private:
         if (settings.albedo) albedo = addImage("albedo", ResourceKind::input, Format::rgba16f, 3, full);
         if (settings.radiance) radiance = addImage("radiance", ResourceKind::input, Format::rgba16f, 3, full);
         if (settings.lit) lit = addImage("lit", ResourceKind::input, Format::rgba16f, 3, full);
+        if (settings.emission) emission = addImage("emission", ResourceKind::input, Format::rgba16f, 3, full);
         if (settings.motion) motion = addImage("motion", ResourceKind::input, Format::rgba16f, 2, full);
         camera = addFrameConstants("camera", sizeof(CameraConstants));
         grid = {std::min(full.width, 256), std::min(full.height, 64)};
@@ -118,18 +119,20 @@ private:
         }
         if (settings.albedo)
             addRow(StatisticRow::albedo, "albedo statistics", "input_check/reflectance", {}, {depth, albedo}, {camera, tiles});
-        const std::vector<int> lightFeatures{projection, settings.albedo ? 1 : 0};
-        if (settings.radiance)
-            addRow(StatisticRow::radiance, "radiance statistics", "input_check/light", lightFeatures,
-                   {depth, normal, settings.albedo ? albedo : radiance, radiance}, {camera, tiles});
-        if (settings.lit)
-            addRow(StatisticRow::lit, "lit statistics", "input_check/light", lightFeatures,
-                   {depth, normal, settings.albedo ? albedo : lit, lit}, {camera, tiles});
+        if (settings.radiance) addLight(StatisticRow::radiance, "radiance statistics", radiance, projection);
+        if (settings.lit) addLight(StatisticRow::lit, "lit statistics", lit, projection);
         if (settings.motion) {
             const ResourceIndex cameras = addFrameConstants("cameras", sizeof(MotionConstants));
             addRow(StatisticRow::motion, "motion statistics", "input_check/motion", {projection}, {depth, motion},
                    {camera, cameras, tiles});
         }
+    }
+
+    // What is absent is bound to the light itself, and not read.
+    void addLight(StatisticRow row, const std::string& label, ResourceIndex light, int projection) {
+        addRow(row, label, "input_check/light", {projection, settings.albedo ? 1 : 0, settings.emission ? 1 : 0},
+               {depth, normal, settings.albedo ? albedo : light, settings.emission ? emission : light, light},
+               {camera, tiles});
     }
 
     void addTable() {
@@ -175,6 +178,7 @@ Result<FrameInputs<Image>> inputCheckInputs(const InputCheckSettings& settings, 
     if (settings.albedo) inputs.images.push_back({"albedo", frame.albedo});
     if (settings.radiance) inputs.images.push_back({"radiance", frame.radiance});
     if (settings.lit) inputs.images.push_back({"lit", frame.lit});
+    if (settings.emission) inputs.images.push_back({"emission", frame.emission});
     inputs.constants.push_back(detail::namedConstants("camera", *camera));
     inputs.constants.push_back(
         detail::namedConstants("planes", detail::planeConstants(frame.camera, settings.conventions)));

@@ -38,11 +38,12 @@ struct MotionConventions {
 
 struct InputCheckSettings {
     Extent2D resolution;            // of the G-buffer, 1x1 to 16384x16384 [pixels]
-    GBufferConventions conventions; // how the G-buffer is said to be written
-    MotionConventions motionConventions;
+    GBufferConventions conventions{}; // how the G-buffer is said to be written
+    MotionConventions motionConventions{};
     bool albedo = true;             // which images a frame hands in beside depth and normal
     bool radiance = true;
     bool lit = false;
+    bool emission = false;          // tells light that surfaces emit from light that they reflect
     bool motion = false;            // needs a previous camera; the scene has to stand still
 };
 
@@ -57,6 +58,7 @@ using InputStatistics = std::array<float, size_t(4) * 4 * 11>;
 //          albedo           diffuse reflectance, 0 to 1                                         (albedo only)
 //          radiance         as planScreenIndirect() takes it                                    (radiance only)
 //          lit              as planScreenIndirect() takes it                                    (lit only)
+//          emission         radiance that surfaces emit themselves, as it is in radiance and lit    (emission only)
 //          motion           2 channels                                                          (motion only)
 // Outputs  statistics       4 channels of 32 bits, of inputStatisticsExtent: for examineInputs()
 Result<Plan> planInputCheck(const InputCheckSettings&);
@@ -66,7 +68,7 @@ template <class Image>
 struct InputCheckFrame {
     Camera camera;
     Camera previousCamera; // with motion: of the picture that motion leads to
-    Image depth{}, normal{}, albedo{}, radiance{}, lit{}, motion{};
+    Image depth{}, normal{}, albedo{}, radiance{}, lit{}, emission{}, motion{};
     Image statistics{};
 };
 
