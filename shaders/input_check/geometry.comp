@@ -9,7 +9,7 @@
 
 // The correlation of stored normals s with the normals g of the surface through neighbouring pixels, under one reading of
 // depth: sum of g s^T. The mean cosine between g and M s + b is linear in it, so the host can try every M and b.
-// In the order of GeometryStatistic.
+// In the order of GeometryStatistic (rebound/detail/input_check_statistics.inl).
 RB_KERNEL(Geometry)
 RB_FEATURE(0, projection, 2)
 RB_INPUT(0, depth)

@@ -16,7 +16,15 @@ RB_FUNCTION Vec4 agreements(Vec2 motion, float scaleX, float scaleY, Vec2 expect
                 motionAgrees(motion, x, -y, expected, judged), motionAgrees(motion, -x, y, expected, judged));
 }
 
-// Motion vectors against what depth and both cameras give for a scene that stands still. In the order of MotionStatistic.
+// A row's product with (p, 1).
+RB_FUNCTION Real product(vec4 row, Vec3 p)
+{
+    return p.x * row.x + p.y * row.y + p.z * row.z + row.w;
+}
+
+// Motion vectors against what depth and both cameras give for a scene that stands still. Of surfaces: .x no number,
+// .y expected to move by more than a pixel, .z to stand still, .w to stand still but moved by more than two; then how many
+// of those that move agree with each of twelve readings.
 RB_KERNEL(Motion)
 RB_FEATURE(0, projection, 2)
 RB_INPUT(0, depth)
@@ -43,9 +51,9 @@ RB_MAIN(pixel, k.grid)
             Mask number = surface && isFinite(texel.x) && isFinite(texel.y);
             Vec2 m = select(number, Vec2(texel.x, texel.y), Vec2(0.0f));
             Vec3 p = viewPosition(viewRay(camera, at), select(surface, linearDepth(camera, d), Real(1.0f)), projection);
-            Real x = p.x * cameras.previousX.x + p.y * cameras.previousX.y + p.z * cameras.previousX.z + cameras.previousX.w;
-            Real y = p.x * cameras.previousY.x + p.y * cameras.previousY.y + p.z * cameras.previousY.z + cameras.previousY.w;
-            Real w = p.x * cameras.previousW.x + p.y * cameras.previousW.y + p.z * cameras.previousW.z + cameras.previousW.w;
+            Real x = product(cameras.previousX, p);
+            Real y = product(cameras.previousY, p);
+            Real w = product(cameras.previousW, p);
             Mask visible = number && w > p.z * 0.01f;
             if (projection == orthographicProjection) visible = number;
             w = select(visible, w, Real(1.0f));

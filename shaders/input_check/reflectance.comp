@@ -7,7 +7,7 @@
 #include "rebound/math/gbuffer.h"
 #include "rebound/math/input_statistics.h"
 
-// Counts surfaces by what their albedo holds. In the order of AlbedoStatistic.
+// Counts surfaces by what their albedo holds. In the order of AlbedoStatistic (rebound/detail/input_check_statistics.inl).
 RB_KERNEL(Reflectance)
 RB_INPUT(0, depth)
 RB_INPUT(1, albedo)

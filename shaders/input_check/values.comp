@@ -7,7 +7,7 @@
 #include "rebound/math/gbuffer.h"
 #include "rebound/math/input_statistics.h"
 
-// Counts pixels by what their depth and normal hold. In the order of ValueStatistic.
+// Counts pixels by what their depth and normal hold. In the order of ValueStatistic (rebound/detail/input_check_statistics.inl).
 RB_KERNEL(Values)
 RB_FEATURE(0, projection, 2)
 RB_INPUT(0, depth)

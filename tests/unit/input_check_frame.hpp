@@ -27,7 +27,8 @@ inline float albedoAt(int x, int y, int channel) {
     return value * (1.0f - 0.1f * float(channel));
 }
 
-// Where the surface at a distance behind a pixel's centre is in a picture of another camera, in pixels of stored rows.
+// Where the surface at a distance behind a pixel's centre is in a picture of another camera, in pixels of
+// stored rows.
 inline glm::vec2 projected(const GBufferConventions& c, const Camera& from, const Camera& to, Extent2D extent,
                            glm::vec2 pixel, float distance) {
     const double rows = c.firstRow == FirstRow::top ? -1.0 : 1.0;
@@ -37,9 +38,11 @@ inline glm::vec2 projected(const GBufferConventions& c, const Camera& from, cons
     const glm::dvec2 ndc(at.x / size.x * 2.0 - 1.0, rows * (at.y / size.y * 2.0 - 1.0));
     glm::dvec4 view(0, 0, forward * double(distance), 1);
     for (int i = 0; i < 2; ++i)
-        view[i] = c.projection == Projection::perspective ? (ndc[i] * double(distance) - p[2][i] * view.z) / p[i][i]
-                                                          : (ndc[i] - p[3][i]) / p[i][i];
-    const glm::dvec4 clip = glm::dmat4(to.projection) * glm::dmat4(to.view) * glm::inverse(glm::dmat4(from.view)) * view;
+        view[i] = c.projection == Projection::perspective
+                      ? (ndc[i] * double(distance) - p[2][i] * view.z) / p[i][i]
+                      : (ndc[i] - p[3][i]) / p[i][i];
+    const glm::dvec4 clip =
+        glm::dmat4(to.projection) * glm::dmat4(to.view) * glm::inverse(glm::dmat4(from.view)) * view;
     const glm::dvec2 there = glm::dvec2(clip) / clip.w;
     return {(there.x + 1.0) * 0.5 * size.x, (rows * there.y + 1.0) * 0.5 * size.y};
 }
@@ -75,7 +78,8 @@ inline CheckFrame correctFrame(const GBufferConventions& c, Extent2D extent) {
             if (distance.at(x, y, 0) == 0.0f)
                 continue;
             const glm::vec2 here(float(x) + 0.5f, float(y) + 0.5f);
-            const glm::vec2 there = projected(c, f.camera, f.previousCamera, extent, here, distance.at(x, y, 0));
+            const glm::vec2 there =
+                projected(c, f.camera, f.previousCamera, extent, here, distance.at(x, y, 0));
             f.motion.at(x, y, 0) = there.x - here.x;
             f.motion.at(x, y, 1) = there.y - here.y;
         }
@@ -88,10 +92,9 @@ inline InputStatistics measure(CheckFrame& f, const cpu::Device& device) {
     REQUIRE_MESSAGE(plan, (plan ? "" : plan.error().message));
     auto program = device.compile(*plan);
     REQUIRE_MESSAGE(program, (program ? "" : program.error().message));
-    const InputCheckFrame<cpu::Image> frame{f.camera,          f.previousCamera, f.depth.image(),
-                                            f.normal.image(),  f.albedo.image(), f.radiance.image(),
-                                            f.lit.image(),     f.emission.image(), f.motion.image(),
-                                            statistics.image()};
+    const InputCheckFrame<cpu::Image> frame{
+        f.camera,           f.previousCamera, f.depth.image(),    f.normal.image(), f.albedo.image(),
+        f.radiance.image(), f.lit.image(),    f.emission.image(), f.motion.image(), statistics.image()};
     auto inputs = inputCheckInputs(f.settings, frame);
     REQUIRE_MESSAGE(inputs, (inputs ? "" : inputs.error().message));
     const auto recorded = program->record(*inputs);

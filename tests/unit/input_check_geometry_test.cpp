@@ -128,6 +128,14 @@ TEST_CASE("normals with a wrong sign, and worlds of other axes") {
     }
 }
 
+TEST_CASE("normals that point into surfaces, of a picture that has no inside") {
+    for (const GBufferConventions& c : someConventions(DepthEncoding::planar)) {
+        CheckFrame f = correctFrame(c, {61, 2});
+        changeNormals(f, [](glm::vec3 n) { return -n; });
+        checkFound(f, {"normalsFlipped"}, "points away from the eye");
+    }
+}
+
 TEST_CASE("rows that run the other way, and a camera that is turned round") {
     for (const GBufferConventions& c : someConventions(DepthEncoding::planar)) {
         CheckFrame f = frameWithoutMotion(c);
@@ -252,7 +260,8 @@ TEST_CASE("distances with a minus sign, or in another unit") {
         checkFound(negative, {"depthNegative"}, "at 100 %");
         CHECK(problems(findingsOf(millimetres, deviceFor(cpu::Isa::automatic))).contains("depthUnits"));
         CHECK(problems(findingsOf(farOff, deviceFor(cpu::Isa::automatic))).contains("depthUnits"));
-        // An orthographic camera may well begin behind the eye, so that short distances lie within its planes.
+        // An orthographic camera may well begin behind the eye, so that short distances lie within its
+        // planes.
         if (projection == Projection::perspective)
             CHECK(problems(findingsOf(kilometres, deviceFor(cpu::Isa::automatic))).contains("depthUnits"));
     }

@@ -22,7 +22,8 @@ void scale(Picture& p, float factor) {
         v *= factor;
 }
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
 
 } // namespace
 
@@ -55,7 +56,8 @@ TEST_CASE("light that is negative, clipped, missing, or of another order of magn
     CheckFrame f = right;
     scale(f.radiance, -1.0f);
     scale(f.lit, -1.0f);
-    checkFound(f, {"radianceNegative", "radianceBlack", "litNegative", "litBlack"}, "radiance is negative at 100 %");
+    checkFound(f, {"radianceNegative", "radianceBlack", "litNegative", "litBlack"},
+               "radiance is negative at 100 %");
     f = right;
     scale(f.radiance, 0.0f);
     scale(f.lit, 0.0f);

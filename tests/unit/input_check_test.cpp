@@ -31,9 +31,34 @@ TEST_CASE("pixels are counted once each, in pictures of every shape") {
         for (float d : f.depth.values)
             surfaces += d > 0.0f ? 1 : 0;
         const InputStatistics s = measure(f, device);
-        CHECK(s[0] == float(e.width * e.height));
-        CHECK(s[5] == float(surfaces));
-        CHECK(s[4] == float(e.width * e.height - surfaces));
+        CHECK(s[detail::ValueStatistic::pixels] == float(e.width * e.height));
+        CHECK(s[detail::ValueStatistic::surfaces] == float(surfaces));
+        CHECK(s[detail::ValueStatistic::depthEmpty] == float(e.width * e.height - surfaces));
+    }
+}
+
+TEST_CASE("bumps in normals, and depth in half floats, are no mistakes") {
+    const cpu::Device device = deviceFor(cpu::Isa::automatic);
+    uint32_t state = 7;
+    for (const GBufferConventions& c : everyConvention()) {
+        if (c.normalEncoding == NormalEncoding::unsignedUnit)
+            continue;
+        CheckFrame f = correctFrame(c, {97, 61});
+        for (size_t i = 0; i < f.normal.values.size(); i += 3) {
+            glm::vec3 n(f.normal.values[i], f.normal.values[i + 1], f.normal.values[i + 2]);
+            for (int k = 0; k < 3; ++k) {
+                state = state * 1664525u + 1013904223u;
+                n[k] += 1.2f * (float(state >> 8) / float(1 << 24) - 0.5f); // tilts of up to 40 degrees
+            }
+            n = glm::normalize(n);
+            for (int k = 0; k < 3; ++k)
+                f.normal.values[i + size_t(k)] = n[k];
+        }
+        if (c.depthEncoding == DepthEncoding::planar)
+            for (float& d : f.depth.values)
+                d = glm::unpackHalf1x16(glm::packHalf1x16(d));
+        const auto findings = findingsOf(f, device);
+        CHECK_MESSAGE(findings.empty(), sentences(findings));
     }
 }
 
@@ -71,7 +96,11 @@ TEST_CASE("images that are not handed in are not asked for") {
         f.settings.lit = (bits & 4) != 0;
         f.settings.motion = (bits & 8) != 0;
         for (Picture* absent : {&f.albedo, &f.radiance, &f.lit, &f.motion})
-            if ((bits >> (absent == &f.albedo ? 0 : absent == &f.radiance ? 1 : absent == &f.lit ? 2 : 3) & 1) == 0)
+            if ((bits >> (absent == &f.albedo     ? 0
+                          : absent == &f.radiance ? 1
+                          : absent == &f.lit      ? 2
+                                                  : 3) &
+                 1) == 0)
                 *absent = Picture({1, 1}, 3, std::numeric_limits<float>::quiet_NaN());
         const auto plan = planInputCheck(f.settings);
         REQUIRE(plan);

@@ -1,36 +1,47 @@
 // SPDX-License-Identifier: MIT
-// Definitions of input_check.hpp: ways to read depth, normals and motion, as stated and as they may have been meant.
+// Definitions of input_check.hpp: ways to read depth, normals and motion, as stated and as they may have been
+// meant.
 
 namespace rebound {
 namespace detail {
 
-inline double forwardSign(const GBufferConventions& c) { return c.handedness == Handedness::right ? -1.0 : 1.0; }
-inline double lowestDepth(DepthRange r) { return r == DepthRange::zeroToOne ? 0.0 : -1.0; }
+inline double forwardSign(const GBufferConventions& c) {
+    return c.handedness == Handedness::right ? -1.0 : 1.0;
+}
+inline double lowestDepth(DepthRange r) {
+    return r == DepthRange::zeroToOne ? 0.0 : -1.0;
+}
 inline DepthMapping depthMapping(const Camera& camera) {
     const glm::mat4& p = camera.projection;
     return {p[2][2], p[3][2], p[2][3], p[3][3]};
 }
 
-// Near and far plane [m], the latter infinite where nothing is too far. Planar depth leaves open which depths clip, so its
-// planes are the widest of every range.
+// Near and far plane [m], the latter infinite where nothing is too far. Planar depth leaves open which depths
+// clip, so its planes are the widest of every range.
 struct DepthPlanes {
     double nearDistance = 0.0, farDistance = 0.0;
 };
 inline DepthPlanes depthPlanes(const Camera& camera, const GBufferConventions& c) {
     const double infinity = std::numeric_limits<double>::infinity();
     const DepthMapping m = depthMapping(camera);
-    const bool device = c.depthEncoding == DepthEncoding::device, perspective = c.projection == Projection::perspective;
+    const bool device = c.depthEncoding == DepthEncoding::device,
+               perspective = c.projection == Projection::perspective;
     DepthPlanes planes{infinity, -infinity};
     for (double ndc : {-1.0, 0.0, 1.0}) {
-        if (device && ndc < lowestDepth(c.depthRange)) continue;
-        if (device && ndc == 0.0 && c.depthRange == DepthRange::minusOneToOne) continue;
+        if (device && ndc < lowestDepth(c.depthRange))
+            continue;
+        if (device && ndc == 0.0 && c.depthRange == DepthRange::minusOneToOne)
+            continue;
         const double z = forwardSign(c) * m.viewZ(ndc);
-        if (std::isnan(z) || (perspective && z < 0.0 && std::isfinite(z))) continue;
+        if (std::isnan(z) || (perspective && z < 0.0 && std::isfinite(z)))
+            continue;
         planes.nearDistance = std::min(planes.nearDistance, std::abs(z) == infinity ? infinity : z);
         planes.farDistance = std::max(planes.farDistance, std::abs(z) == infinity ? infinity : z);
     }
-    if (!(planes.nearDistance < planes.farDistance)) return {0.0, infinity};
-    if (perspective && planes.farDistance > 1e6 * planes.nearDistance) planes.farDistance = infinity;
+    if (!(planes.nearDistance < planes.farDistance))
+        return {0.0, infinity};
+    if (perspective && planes.farDistance > 1e6 * planes.nearDistance)
+        planes.farDistance = infinity;
     return planes;
 }
 
@@ -56,29 +67,40 @@ enum class DepthMeaning {
 
 inline std::array<DepthMeaning, size_t(depthReadingCount)> depthMeanings(const GBufferConventions& c) {
     using enum DepthMeaning;
-    if (c.depthEncoding == DepthEncoding::device) return {stated, reversed, otherRange, planar, radial};
+    if (c.depthEncoding == DepthEncoding::device)
+        return {stated, reversed, otherRange, planar, radial};
     return {stated, radial, device, deviceMinusOne, deviceReversed};
 }
 
 // Normalised device depth is start + slope * stored.
-inline DepthReading deviceReading(const Camera& camera, const GBufferConventions& c, double start, double slope) {
+inline DepthReading deviceReading(const Camera& camera, const GBufferConventions& c, double start,
+                                  double slope) {
     const DepthMapping m = depthMapping(camera);
     const double forward = forwardSign(c);
-    return {{forward * (start * m.d - m.b), forward * slope * m.d, m.a - start * m.c, -slope * m.c}, {0, 0, 0, 0}};
+    return {{forward * (start * m.d - m.b), forward * slope * m.d, m.a - start * m.c, -slope * m.c},
+            {0, 0, 0, 0}};
 }
 
 inline DepthReading depthReading(DepthMeaning meaning, const Camera& camera, const GBufferConventions& c,
                                  const CameraConstants& stated) {
     const double low = lowestDepth(c.depthRange);
     switch (meaning) {
-    case DepthMeaning::stated: break;
-    case DepthMeaning::reversed: return deviceReading(camera, c, 1.0, low - 1.0);
-    case DepthMeaning::otherRange: return deviceReading(camera, c, -1.0 - low, low + 2.0);
-    case DepthMeaning::planar: return {{0, 1, 1, 0}, {0, 0, 0, 0}};
-    case DepthMeaning::radial: return {{0, 1, 1, 0}, {1, 0, 0, 0}};
-    case DepthMeaning::device: return deviceReading(camera, c, 0.0, 1.0);
-    case DepthMeaning::deviceMinusOne: return deviceReading(camera, c, -1.0, 2.0);
-    case DepthMeaning::deviceReversed: return deviceReading(camera, c, 1.0, -1.0);
+    case DepthMeaning::stated:
+        break;
+    case DepthMeaning::reversed:
+        return deviceReading(camera, c, 1.0, low - 1.0);
+    case DepthMeaning::otherRange:
+        return deviceReading(camera, c, -1.0 - low, low + 2.0);
+    case DepthMeaning::planar:
+        return {{0, 1, 1, 0}, {0, 0, 0, 0}};
+    case DepthMeaning::radial:
+        return {{0, 1, 1, 0}, {1, 0, 0, 0}};
+    case DepthMeaning::device:
+        return deviceReading(camera, c, 0.0, 1.0);
+    case DepthMeaning::deviceMinusOne:
+        return deviceReading(camera, c, -1.0, 2.0);
+    case DepthMeaning::deviceReversed:
+        return deviceReading(camera, c, 1.0, -1.0);
     }
     return {stated.depth, {0, 0, 0, 0}};
 }
@@ -87,7 +109,8 @@ inline std::array<DepthReading, size_t(depthReadingCount)>
 depthReadings(const Camera& camera, const GBufferConventions& c, const CameraConstants& stated) {
     std::array<DepthReading, size_t(depthReadingCount)> readings;
     const auto meanings = depthMeanings(c);
-    for (size_t i = 0; i < readings.size(); ++i) readings[i] = depthReading(meanings[i], camera, c, stated);
+    for (size_t i = 0; i < readings.size(); ++i)
+        readings[i] = depthReading(meanings[i], camera, c, stated);
     return readings;
 }
 
@@ -95,19 +118,23 @@ depthReadings(const Camera& camera, const GBufferConventions& c, const CameraCon
 inline glm::vec2 motionScale(const InputCheckSettings& s, MotionUnit unit) {
     const glm::vec2 size(s.resolution.width, s.resolution.height);
     const float sign = s.motionConventions.direction == MotionDirection::toPrevious ? 1.0f : -1.0f;
-    if (unit == MotionUnit::pixels) return glm::vec2(sign);
-    if (unit == MotionUnit::textureCoordinates) return sign * size;
+    if (unit == MotionUnit::pixels)
+        return glm::vec2(sign);
+    if (unit == MotionUnit::textureCoordinates)
+        return sign * size;
     return sign * 0.5f * size * glm::vec2(1.0f, s.conventions.firstRow == FirstRow::top ? -1.0f : 1.0f);
 }
 
 // The stated unit, then the others.
 inline std::array<MotionUnit, 3> motionUnits(MotionUnit stated) {
-    std::array<MotionUnit, 3> units{MotionUnit::pixels, MotionUnit::textureCoordinates, MotionUnit::normalizedDevice};
+    std::array<MotionUnit, 3> units{MotionUnit::pixels, MotionUnit::textureCoordinates,
+                                    MotionUnit::normalizedDevice};
     std::stable_partition(units.begin(), units.end(), [stated](MotionUnit u) { return u == stated; });
     return units;
 }
 
-inline MotionConstants motionConstants(const InputCheckSettings& s, const Camera& camera, const Camera& previous) {
+inline MotionConstants motionConstants(const InputCheckSettings& s, const Camera& camera,
+                                       const Camera& previous) {
     glm::dmat4 toEngine(1.0);
     toEngine[2][2] = forwardSign(s.conventions);
     const glm::dmat4 toClip = glm::dmat4(previous.projection) * glm::dmat4(previous.view) *
@@ -116,9 +143,11 @@ inline MotionConstants motionConstants(const InputCheckSettings& s, const Camera
     const double width = s.resolution.width, height = s.resolution.height;
     const double down = s.conventions.firstRow == FirstRow::top ? -1.0 : 1.0;
     const auto units = motionUnits(s.motionConventions.unit);
-    const glm::vec2 stated = motionScale(s, units[0]), second = motionScale(s, units[1]), third = motionScale(s, units[2]);
-    return {glm::vec4(0.5 * width * (rows[0] + rows[3])), glm::vec4(0.5 * height * (down * rows[1] + rows[3])),
-            glm::vec4(rows[3]), glm::vec4(stated, second), glm::vec4(third, 0.0f, 0.0f)};
+    const glm::vec2 stated = motionScale(s, units[0]), second = motionScale(s, units[1]),
+                    third = motionScale(s, units[2]);
+    return {glm::vec4(0.5 * width * (rows[0] + rows[3])),
+            glm::vec4(0.5 * height * (down * rows[1] + rows[3])), glm::vec4(rows[3]),
+            glm::vec4(stated, second), glm::vec4(third, 0.0f, 0.0f)};
 }
 
 // What may be wrong with normals beside their encoding and their space.
@@ -151,9 +180,12 @@ inline glm::dmat3 normalMatrix(const NormalReading& r, const Camera& camera, con
         return m;
     };
     glm::dmat3 view = r.space == NormalSpace::world ? glm::dmat3(glm::mat3(camera.view)) : glm::dmat3(1.0);
-    if (r.change == NormalChange::transposed) view = glm::transpose(view);
-    if (r.change == NormalChange::zUp) view = view * glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-    if (r.change == NormalChange::zUpNegated) view = view * glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+    if (r.change == NormalChange::transposed)
+        view = glm::transpose(view);
+    if (r.change == NormalChange::zUp)
+        view = view * glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    if (r.change == NormalChange::zUpNegated)
+        view = view * glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
     if (r.change >= NormalChange::worldX && r.change <= NormalChange::worldZ)
         view = view * flip(int(r.change) - int(NormalChange::worldX));
     glm::dmat3 forward(1.0);
@@ -169,14 +201,19 @@ inline bool applies(NormalChange change, NormalSpace space) {
     return space == NormalSpace::world || change <= NormalChange::viewZ;
 }
 
-// A row of statistics of the geometry under one reading of depth: .xyz of rows 0 to 2 correlate, .w sums normals.
+// A row of statistics of the geometry under one reading of depth: .xyz of rows 0 to 2 correlate, .w sums
+// normals.
 struct GeometryRow {
     const float* values;
-    double lengths(NormalEncoding e) const { return values[e == NormalEncoding::signedUnit ? 12 : 13]; }
-    double judged() const { return values[14]; }   // pixels amid one smooth surface
-    double surfaces() const { return values[15]; } // pixels with a surface all around
+    double lengths(NormalEncoding e) const {
+        return values[e == NormalEncoding::signedUnit ? GeometryStatistic::lengthIfSigned
+                                                      : GeometryStatistic::lengthIfUnsigned];
+    }
+    double judged() const { return values[GeometryStatistic::judged]; }
+    double surfaces() const { return values[GeometryStatistic::surfaces]; }
 
-    // The mean cosine between stored normals under a reading and those of the geometry, weighed by stored length.
+    // The mean cosine between stored normals under a reading and those of the geometry, weighed by stored
+    // length.
     double meanCosine(const glm::dmat3& toView, NormalEncoding encoding) const {
         double correlation = 0.0, bias = 0.0;
         for (int row = 0; row < 3; ++row)
@@ -205,24 +242,29 @@ inline std::vector<GeometryReading> geometryReadings(const InputCheckSettings& s
         return GeometryRow{statistics.data() + 16 * (int(StatisticRow::geometry0) + depth)};
     };
     double most = 0.0;
-    for (int depth = 0; depth < depthReadingCount; ++depth) most = std::max(most, rowOf(depth).surfaces());
+    for (int depth = 0; depth < depthReadingCount; ++depth)
+        most = std::max(most, rowOf(depth).surfaces());
     for (int depth = 0; depth < depthReadingCount; ++depth)
         for (NormalSpace space : {NormalSpace::view, NormalSpace::world})
             for (NormalEncoding encoding : {NormalEncoding::signedUnit, NormalEncoding::unsignedUnit})
                 for (int change = 0; change < normalChangeCount; ++change) {
                     const NormalReading normal{space, encoding, NormalChange(change)};
-                    if (!applies(normal.change, space)) continue;
+                    if (!applies(normal.change, space))
+                        continue;
                     const GeometryRow row = rowOf(depth);
-                    GeometryReading r{depth, normal, 0, row.meanCosine(normalMatrix(normal, camera, c), encoding)};
+                    GeometryReading r{depth, normal, 0,
+                                      row.meanCosine(normalMatrix(normal, camera, c), encoding)};
                     // A reading under which few pixels are surfaces explains few.
                     r.cosine *= most > 0.0 ? std::min(1.0, 2.0 * row.surfaces() / most) : 0.0;
-                    r.changes = (depth != 0) + (space != c.normalSpace) + (encoding != c.normalEncoding) + (change != 0);
+                    r.changes = (depth != 0) + (space != c.normalSpace) + (encoding != c.normalEncoding) +
+                                (change != 0);
                     readings.push_back(r);
                 }
     return readings;
 }
 
-// Another reading is taken only where it leaves well under two thirds of the disagreement, for each thing that it changes.
+// Another reading is taken only where it leaves well under two thirds of the disagreement, for each thing
+// that it changes.
 inline constexpr double explainingFactor = 0.6;
 
 // The reading that explains the frame best, where each change has to earn its place.
@@ -231,10 +273,13 @@ inline GeometryReading explain(const std::vector<GeometryReading>& readings) {
     for (int changes = 0; changes <= 4; ++changes) {
         GeometryReading candidate{0, {}, changes, -1.0};
         for (const GeometryReading& r : readings)
-            if (r.changes == changes && r.cosine > candidate.cosine) candidate = r;
-        if (changes == 0) best = candidate;
+            if (r.changes == changes && r.cosine > candidate.cosine)
+                candidate = r;
+        if (changes == 0)
+            best = candidate;
         const double needed = std::pow(explainingFactor, changes - best.changes);
-        if (changes > 0 && 1.0 - candidate.cosine < needed * (1.0 - best.cosine)) best = candidate;
+        if (changes > 0 && 1.0 - candidate.cosine < needed * (1.0 - best.cosine))
+            best = candidate;
     }
     return best;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Examines a G-buffer and its camera, and says in sentences what does not fit together: most trouble with indirect light is
-// an input that is not what the technique takes it for. For development, not for every frame; see docs/input_check.md.
+// Examines a G-buffer and its camera, and says in sentences what does not fit together: most trouble with
+// indirect light is an input that is not what the technique takes it for. For development, not for every
+// frame; see docs/input_check.md.
 //
 //   planInputCheck()     what to run on a device, as for any technique
 //   inputCheckInputs()   one frame's images and cameras
@@ -37,14 +38,14 @@ struct MotionConventions {
 };
 
 struct InputCheckSettings {
-    Extent2D resolution;            // of the G-buffer, 1x1 to 16384x16384 [pixels]
+    Extent2D resolution;              // of the G-buffer, 1x1 to 16384x16384 [pixels]
     GBufferConventions conventions{}; // how the G-buffer is said to be written
     MotionConventions motionConventions{};
-    bool albedo = true;             // which images a frame hands in beside depth and normal
+    bool albedo = true; // which images a frame hands in beside depth and normal
     bool radiance = true;
     bool lit = false;
-    bool emission = false;          // tells light that surfaces emit from light that they reflect
-    bool motion = false;            // needs a previous camera; the scene has to stand still
+    bool emission = false; // tells light that surfaces emit from light that they reflect
+    bool motion = false;   // needs a previous camera; the scene has to stand still
 };
 
 // Size of the image that the check writes, in 32-bit floats of four channels.
@@ -56,10 +57,10 @@ using InputStatistics = std::array<float, size_t(4) * 4 * 11>;
 //
 // Inputs   depth, normal    as the conventions say
 //          albedo           diffuse reflectance, 0 to 1                                         (albedo only)
-//          radiance         as planScreenIndirect() takes it                                    (radiance only)
-//          lit              as planScreenIndirect() takes it                                    (lit only)
-//          emission         radiance that surfaces emit themselves, as it is in radiance and lit    (emission only)
-//          motion           2 channels                                                          (motion only)
+//          radiance         as planScreenIndirect() takes it                                    (radiance
+//          only) lit              as planScreenIndirect() takes it                                    (lit
+//          only) emission         radiance that surfaces emit themselves, as it is in radiance and lit
+//          (emission only) motion           2 channels (motion only)
 // Outputs  statistics       4 channels of 32 bits, of inputStatisticsExtent: for examineInputs()
 Result<Plan> planInputCheck(const InputCheckSettings&);
 
@@ -72,31 +73,32 @@ struct InputCheckFrame {
     Image statistics{};
 };
 
-// A frame as Program::record() takes it. Fails where a camera contradicts the conventions: that is a finding in itself.
+// A frame as Program::record() takes it. Fails where a camera contradicts the conventions: that is a finding
+// in itself.
 template <class Image>
 Result<FrameInputs<Image>> inputCheckInputs(const InputCheckSettings&, const InputCheckFrame<Image>&);
 
 enum class InputProblem {
-    camera,                // the matrices contradict the conventions
-    noSurfaces,            // nothing but sky
+    camera,     // the matrices contradict the conventions
+    noSurfaces, // nothing but sky
     depthNotFinite,
     depthNegative,
-    depthOutOfRange,       // device depth that is not 0 to 1
-    depthDirection,        // forward and reversed are confused
-    depthEncoding,         // another reading of depth gives the geometry that the normals belong to
-    depthUnits,            // distances do not fit the clipping planes, or no scene
+    depthOutOfRange, // device depth that is not 0 to 1
+    depthDirection,  // forward and reversed are confused
+    depthEncoding,   // another reading of depth gives the geometry that the normals belong to
+    depthUnits,      // distances do not fit the clipping planes, or no scene
     normalsNotFinite,
     normalsNotUnit,
-    normalsEncoding,       // signed and unsigned are confused
-    normalsSpace,          // view and world space are confused, or world spaces of different axes
-    normalsFlipped,        // one axis or all have the wrong sign
+    normalsEncoding,        // signed and unsigned are confused
+    normalsSpace,           // view and world space are confused, or world spaces of different axes
+    normalsFlipped,         // one axis or all have the wrong sign
     normalsContradictDepth, // and no other reading that is tried explains it
     albedoNotFinite,
     albedoOutOfRange,
-    albedoUniform,         // all white or all black
+    albedoUniform, // all white or all black
     radianceNotFinite,
     radianceNegative,
-    radianceClipped,       // at the largest half float
+    radianceClipped, // at the largest half float
     radianceBlack,
     radianceUnits,         // so bright or so dark that half floats lose it
     radianceWithoutAlbedo, // it is irradiance
@@ -119,11 +121,13 @@ enum class Certainty {
 struct InputFinding {
     InputProblem problem;
     Certainty certainty = Certainty::mistake;
-    double measure = 0.0; // the value in the sentence: a share of pixels or surfaces 0 to 1, a cosine, a distance or a radiance
+    double measure = 0.0; // the value in the sentence: a share of pixels or surfaces 0 to 1, a cosine, a
+                          // distance or a radiance
     std::string sentence; // names the input, what was measured, what was expected, and the probable cause
 };
 
-// What the statistics of one frame say; nothing where all is well. Those of another frame's settings or camera give nonsense.
+// What the statistics of one frame say; nothing where all is well. Those of another frame's settings or
+// camera give nonsense.
 std::vector<InputFinding> examineInputs(const InputCheckSettings&, const Camera&, const InputStatistics&);
 
 // A problem's name, as above.
@@ -131,7 +135,13 @@ const char* name(InputProblem);
 
 } // namespace rebound
 
+// In this order, which blank lines keep.
+#include "rebound/detail/input_check_statistics.inl"
+
 #include "rebound/detail/input_check_plan.inl"
+
 #include "rebound/detail/input_check_geometry.inl"
+
 #include "rebound/detail/input_check_findings.inl"
+
 #include "rebound/detail/input_check_light.inl"
