@@ -52,42 +52,50 @@ RB_MAIN(pixel, k.grid)
                 Vec3 a = Vec3(ownAlbedo.x, ownAlbedo.y, ownAlbedo.z);
                 if (withEmission == 1) l = reflected(l, fetchOffset(emission, pixel, offset));
                 Vec3 position = viewPosition(viewRay(camera, at), surface.z, projection);
+                // Few pixels lie at edges: what all others need not know is not fetched.
                 RB_UNROLL
                 for (int pair = 0; pair < 2; ++pair) {
                     ivec2 o = offset + ivec2(1 - pair, pair);
                     Vec2 there = Vec2(at.x + float(1 - pair), at.y + float(pair));
-                    Vec4 otherTexel = fetchOffset(light, pixel, o);
                     Vec4 otherAlbedo = fetchOffset(albedo, pixel, o);
-                    Vec3 l2 = Vec3(otherTexel.x, otherTexel.y, otherTexel.z);
                     Vec3 a2 = Vec3(otherAlbedo.x, otherAlbedo.y, otherAlbedo.z);
-                    if (withEmission == 1) l2 = reflected(l2, fetchOffset(emission, pixel, o));
-                    Surface other = plainSurface(camera, there, fetchOffset(depth, pixel, o),
-                                                 fetchOffset(normal, pixel, o), projection);
-                    // On one surface: neither turned nor off its plane.
-                    Vec3 apart = viewPosition(viewRay(camera, there), other.z, projection) - position;
-                    Real off = dot(surface.normal, apart);
-                    Mask same = number && liesInside(there, k.size, 0.0f) && other.z > 0.0f && isFinite3(l2) &&
-                                isFinite3(a) && isFinite3(a2) && dot(surface.normal, other.normal) > 0.95f &&
-                                off * off < dot(apart, apart) * 0.1f;
-                    Vec3 votes = edgeVote(a.x, a2.x, l.x, l2.x) + edgeVote(a.y, a2.y, l.y, l2.y) +
-                                 edgeVote(a.z, a2.z, l.z, l2.z);
-                    votes = select(same, votes, Vec3(0.0f));
-                    s2 += Vec4(votes.x, votes.y, votes.z, Real(0.0f));
+                    Vec3 change = a2 - a;
+                    Mask differs = number && liesInside(there, k.size, 0.0f) && isFinite3(change) &&
+                                   dot(change, change) > 1e-4f;
+                    if (anyLane(differs)) {
+                        Vec4 otherTexel = fetchOffset(light, pixel, o);
+                        Vec3 l2 = Vec3(otherTexel.x, otherTexel.y, otherTexel.z);
+                        if (withEmission == 1) l2 = reflected(l2, fetchOffset(emission, pixel, o));
+                        Surface other = plainSurface(camera, there, fetchOffset(depth, pixel, o),
+                                                     fetchOffset(normal, pixel, o), projection);
+                        // On one surface: neither turned nor off its plane.
+                        Vec3 apart = viewPosition(viewRay(camera, there), other.z, projection) - position;
+                        Real off = dot(surface.normal, apart);
+                        Mask same = differs && other.z > 0.0f && isFinite3(l2) &&
+                                    dot(surface.normal, other.normal) > 0.95f && off * off < dot(apart, apart) * 0.1f;
+                        Vec3 votes = edgeVote(a.x, a2.x, l.x, l2.x) + edgeVote(a.y, a2.y, l.y, l2.y) +
+                                     edgeVote(a.z, a2.z, l.z, l2.z);
+                        votes = select(same, votes, Vec3(0.0f));
+                        s2 += Vec4(votes.x, votes.y, votes.z, Real(0.0f));
+                    }
                 }
                 // Black surfaces lie beside others rather than on them.
                 RB_UNROLL
                 for (int pair = 0; pair < 2; ++pair) {
                     ivec2 o = offset + ivec2(16 * (1 - pair), 16 * pair);
-                    Vec4 otherTexel = fetchOffset(light, pixel, o);
-                    Vec4 otherAlbedo = fetchOffset(albedo, pixel, o);
-                    Vec3 l2 = Vec3(otherTexel.x, otherTexel.y, otherTexel.z);
-                    Vec3 a2 = Vec3(otherAlbedo.x, otherAlbedo.y, otherAlbedo.z);
-                    if (withEmission == 1) l2 = reflected(l2, fetchOffset(emission, pixel, o));
                     Vec2 there = Vec2(at.x + float(16 * (1 - pair)), at.y + float(16 * pair));
-                    Mask both = number && liesInside(there, k.size, 0.0f) && isFinite3(l2) && isFinite3(a) &&
-                                isFinite3(a2) && holdsSurface(camera, fetchOffset(depth, pixel, o).x);
-                    Vec2 votes = select(both, darkVote(a, a2, l, l2), Vec2(0.0f));
-                    s1 += Vec4(Real(0.0f), Real(0.0f), votes.x, votes.y);
+                    Vec4 otherAlbedo = fetchOffset(albedo, pixel, o);
+                    Vec3 a2 = Vec3(otherAlbedo.x, otherAlbedo.y, otherAlbedo.z);
+                    Mask dark = number && liesInside(there, k.size, 0.0f) && isFinite3(a) && isFinite3(a2) &&
+                                (largest(a) < 0.02f || largest(a2) < 0.02f);
+                    if (anyLane(dark)) {
+                        Vec4 otherTexel = fetchOffset(light, pixel, o);
+                        Vec3 l2 = Vec3(otherTexel.x, otherTexel.y, otherTexel.z);
+                        if (withEmission == 1) l2 = reflected(l2, fetchOffset(emission, pixel, o));
+                        Mask both = dark && isFinite3(l2) && holdsSurface(camera, fetchOffset(depth, pixel, o).x);
+                        Vec2 votes = select(both, darkVote(a, a2, l, l2), Vec2(0.0f));
+                        s1 += Vec4(Real(0.0f), Real(0.0f), votes.x, votes.y);
+                    }
                 }
             }
         }
