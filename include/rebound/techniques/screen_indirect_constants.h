@@ -3,9 +3,9 @@
 #ifndef REBOUND_SCREEN_INDIRECT_CONSTANTS_H
 #define REBOUND_SCREEN_INDIRECT_CONSTANTS_H
 
+#include "rebound/techniques/projection_feature.h"
+
 // Features' values.
-const int perspectiveProjection = 0;
-const int orthographicProjection = 1;
 const int reduceNearest = 0;
 const int reduceVoting = 1;
 const int discFormFactor = 0;
