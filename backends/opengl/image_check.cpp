@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image_check.hpp"
 
+#include <initializer_list>
 #include <string>
 
 namespace rebound::opengl {
@@ -37,8 +38,8 @@ bool bindTexture(const Gl& gl, GLuint texture) {
 
 int channelCount(const Gl& gl) {
     int count = 0;
-    for (GLenum size :
-         {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE})
+    for (GLenum size : std::initializer_list<GLenum>{GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE,
+                                                     GL_TEXTURE_BLUE_SIZE, GL_TEXTURE_ALPHA_SIZE})
         count += levelParameter(gl, size) > 0 ? 1 : 0;
     return count > 0 ? count : levelParameter(gl, GL_TEXTURE_DEPTH_SIZE) > 0 ? 1 : 0;
 }

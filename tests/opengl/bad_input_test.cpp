@@ -219,7 +219,7 @@ TEST_CASE("frames that an OpenGL device refuses, writing nothing") {
                           [](Inputs& i) { i.images[0].image.texture = 4000000; });
         checkRefusedFrame(device, "are both texture",
                           [](Inputs& i) { i.images[0].image = i.images[1].image; });
-        for (size_t which : {0, 1}) {
+        for (size_t which : {size_t(0), size_t(1)}) {
             const host::OpenGLTexture small(Format::rgba32f, Extent2D{20, 4});
             checkRefusedFrame(device, "is 20x4; 20x5 was expected",
                               [&](Inputs& i) { i.images[which].image.texture = small.name(); });
@@ -279,7 +279,7 @@ TEST_CASE("textures of other targets are refused, and the driver's complaint is 
         const OddTexture cube([] { glTexStorage2D(GL_TEXTURE_CUBE_MAP, 1, GL_RGBA32F, 20, 20); },
                               GL_TEXTURE_CUBE_MAP);
         for (const OddTexture* texture : {&array, &cube})
-            for (size_t which : {0, 1})
+            for (size_t which : {size_t(0), size_t(1)})
                 checkRefusedFrame(device, "is no GL_TEXTURE_2D",
                                   [&](Inputs& i) { i.images[which].image.texture = texture->name; });
         context.takeMessages(); // that the texture cannot be bound there

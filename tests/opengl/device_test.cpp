@@ -181,6 +181,36 @@ TEST_CASE("OpenGL: timings of a finished frame where they were asked for, and no
     });
 }
 
+TEST_CASE("OpenGL: timings never wait for the GPU") {
+    inEachContext([](host::OpenGLContext& context) {
+        opengl::DeviceOptions options = optionsWithFakes();
+        options.timings = true;
+        const opengl::Device device = createDevice(options);
+        if (!device.hasTimings()) {
+            MESSAGE(context.description() << " has no timestamps");
+            return;
+        }
+        opengl::Program program = compile(device, copyPlan({20, 5}));
+        const CopyFrame frame({20, 5});
+        FakeOpenGL::resultsAreLate = true;
+        for (int run = 0; run < 12; ++run) {
+            REQUIRE(program.record(frame.inputs()));
+            CHECK(program.timings().empty());
+        }
+        glFinish();
+        CHECK(program.timings().empty());
+        CHECK(FakeOpenGL::resultsRead == 0);
+        FakeOpenGL::resultsAreLate = false;
+        CHECK(program.timings().size() == 2);
+        // Four frames had queries; each has one before its two passes and one behind each.
+        CHECK(FakeOpenGL::resultsRead == 4 * 3);
+        REQUIRE(program.record(frame.inputs()));
+        glFinish();
+        CHECK(program.timings().size() == 2);
+        CHECK(FakeOpenGL::resultsRead == 5 * 3);
+    });
+}
+
 TEST_CASE("OpenGL: devices in two contexts do not know of each other") {
     auto desktop = host::OpenGLContext::create(host::OpenGLApi::desktop);
     auto es = host::OpenGLContext::create(host::OpenGLApi::es);

@@ -111,7 +111,9 @@ void checkSurfaces(const Picture& got, const Picture& want) {
 void checkPictures(const Plan& plan, const Pictures& got, const Pictures& want) {
     const auto rounded = roundings(plan);
     REQUIRE(got.size() == want.size());
-    for (const auto& [resource, picture] : want) {
+    for (const auto& [name, image] : want) {
+        const std::string& resource = name; // Clang 14 lets no lambda of a check name a structured binding
+        const Picture& picture = image;
         CAPTURE(resource);
         REQUIRE(mean(picture) != 0.0);
         if (const int times = rounded.at(resource); times > 0)

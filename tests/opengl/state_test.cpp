@@ -5,6 +5,7 @@
 #include "rebound/techniques/screen_indirect.hpp"
 
 #include <array>
+#include <initializer_list>
 #include <map>
 
 namespace rebound::test {
@@ -55,16 +56,18 @@ State currentState() {
     glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
     for (int unit = 0; unit < 20; ++unit) {
         glActiveTexture(GL_TEXTURE0 + GLenum(unit));
-        for (GLenum name : {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_BINDING_3D,
-                            GL_TEXTURE_BINDING_CUBE_MAP, GL_SAMPLER_BINDING}) {
+        for (GLenum name : std::initializer_list<GLenum>{GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_ARRAY,
+                                                         GL_TEXTURE_BINDING_3D, GL_TEXTURE_BINDING_CUBE_MAP,
+                                                         GL_SAMPLER_BINDING}) {
             GLint value = 0;
             glGetIntegerv(name, &value);
             state["texture unit " + std::to_string(unit) + " " + std::to_string(name)] = value;
         }
     }
     glActiveTexture(GLenum(active));
-    for (GLenum name : {GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL, GL_IMAGE_BINDING_LAYERED,
-                        GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT})
+    for (GLenum name : std::initializer_list<GLenum>{GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL,
+                                                     GL_IMAGE_BINDING_LAYERED, GL_IMAGE_BINDING_LAYER,
+                                                     GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT})
         addIndexed(state, "image unit " + std::to_string(name), name, 8);
     addIndexed(state, "uniform buffer", GL_UNIFORM_BUFFER_BINDING, 16);
     addIndexed(state, "uniform start", GL_UNIFORM_BUFFER_START, 16);
@@ -77,7 +80,8 @@ State currentState() {
 
 void checkUnchanged(const State& before) {
     const State after = currentState();
-    for (const auto& [text, value] : before) {
+    for (const auto& [what, value] : before) {
+        const std::string& text = what;
         CAPTURE(text);
         CHECK(after.at(text) == value);
     }

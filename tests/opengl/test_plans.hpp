@@ -93,6 +93,8 @@ struct FakeOpenGL {
     static inline std::map<GLenum, GLint> integers; // what glGetIntegerv says instead
     static inline const char* version = nullptr;    // what glGetString says of the version
     static inline bool memoryIsShort = false;       // glTexStorage2D fails
+    static inline bool resultsAreLate = false;      // queries are not available yet
+    static inline int resultsRead = 0;              // of queries, whether available or not
     static inline GLenum error = GL_NO_ERROR;
     static inline std::set<std::string> missing; // functions that the loader does not find
     // In order: glMemoryBarrier's bits, and dispatches.
@@ -108,7 +110,8 @@ struct FakeOpenGL {
         textureBytes = bufferBytes = 0;
         integers.clear();
         version = nullptr;
-        memoryIsShort = false;
+        memoryIsShort = resultsAreLate = false;
+        resultsRead = 0;
         error = GL_NO_ERROR;
         missing.clear();
         commands.clear();
@@ -158,6 +161,16 @@ struct FakeOpenGL {
         bufferBytes += size_t(size);
         glBufferData(target, size, data, usage);
     }
+    static void APIENTRY getQueryObjectuiv(GLuint query, GLenum name, GLuint* value) {
+        glGetQueryObjectuiv(query, name, value);
+        if (resultsAreLate)
+            *value = 0;
+    }
+    static inline PFNGLGETQUERYOBJECTUI64VPROC realResult = nullptr;
+    static void APIENTRY getQueryObjectui64v(GLuint query, GLenum name, GLuint64* value) {
+        ++resultsRead;
+        realResult(query, name, value);
+    }
     static void APIENTRY memoryBarrier(GLbitfield bits) {
         commands.push_back({bits, {}});
         glMemoryBarrier(bits);
@@ -197,6 +210,9 @@ struct FakeOpenGL {
             {"glDeleteShader", pointer(deleteShader)},
             {"glTexStorage2D", pointer(texStorage2D)},
             {"glBufferData", pointer(bufferData)},
+            {"glGetQueryObjectuiv", pointer(getQueryObjectuiv)},
+            {"glGetQueryObjectui64v", pointer(getQueryObjectui64v)},
+            {"glGetQueryObjectui64vEXT", pointer(getQueryObjectui64v)},
             {"glMemoryBarrier", pointer(memoryBarrier)},
             {"glDispatchCompute", pointer(dispatchCompute)},
             {"glGetError", pointer(getError)},
@@ -205,6 +221,9 @@ struct FakeOpenGL {
         };
         if (missing.contains(name))
             return nullptr;
+        if (std::string_view(name).starts_with("glGetQueryObjectui64v"))
+            realResult =
+                reinterpret_cast<PFNGLGETQUERYOBJECTUI64VPROC>(host::OpenGLContext::functionNamed(name));
         const auto fake = fakes.find(name);
         return fake != fakes.end() ? fake->second : host::OpenGLContext::functionNamed(name);
     }
