@@ -2,20 +2,12 @@
 #include "image_check.hpp"
 #include "program_state.hpp"
 
-#include "rebound/detail/kernel_check.hpp"
+#include "rebound/detail/shader_check.hpp"
 
 #include <algorithm>
 #include <cstring>
 
 namespace rebound::opengl {
-
-const Shader* Device::Shared::findShader(std::string_view name) const {
-    for (const auto& table : shaders)
-        for (const Shader* shader : table)
-            if (shader->name == name)
-                return shader;
-    return nullptr;
-}
 
 namespace {
 
@@ -88,7 +80,7 @@ Result<> checkPlan(const Device::Shared& device, const Plan& plan, Program::Stat
         return valid.error();
     std::vector<std::optional<Format>> formats(plan.resources.size());
     for (const Pass& pass : plan.passes) {
-        const Shader* shader = device.findShader(pass.kernel);
+        const Shader* shader = detail::findShader(device.shaders, pass.kernel);
         if (!shader)
             return detail::unknownKernel(pass);
         if (auto valid = detail::checkKernelUse(plan, pass, shader->name, shader->info); !valid)
@@ -117,7 +109,7 @@ Result<> checkContext(const Gl& gl) {
 
 Result<CompiledPass> compilePass(const Device::Shared& device, const Plan& plan, const Pass& pass,
                                  GLbitfield barrier) {
-    const Shader* shader = device.findShader(pass.kernel);
+    const Shader* shader = detail::findShader(device.shaders, pass.kernel);
     std::weak_ptr<const ShaderProgram>& known = device.built[{shader, pass.features}];
     CompiledPass compiled;
     compiled.program = known.lock();

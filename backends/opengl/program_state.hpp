@@ -21,8 +21,6 @@ struct Device::Shared {
     std::vector<std::span<const Shader* const>> shaders;
     // Programs that live somewhere: after a resize, new programs find those of the old ones.
     mutable std::map<std::pair<const Shader*, std::vector<int>>, std::weak_ptr<const ShaderProgram>> built;
-
-    const Shader* findShader(std::string_view name) const;
 };
 
 struct CompiledPass {

@@ -9,8 +9,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace rebound::cli {
 
@@ -42,6 +44,7 @@ struct Series {
 struct Measurement {
     std::vector<Series> passes;
     Series frame{"frame", {}};
+    Series recording{"recording", {}}; // on the host, where a GPU does the work; else empty
 };
 
 void add(Measurement& measurement, const std::vector<PassTiming>& timings, double frameMilliseconds) {
@@ -62,6 +65,8 @@ Result<Measurement> measure(FramePipeline& pipeline, int warmUp, int frames) {
             return milliseconds.error();
         if (i >= warmUp)
             add(measurement, pipeline.timings(), *milliseconds);
+        if (const auto recording = pipeline.recordingTime(); recording && i >= warmUp)
+            measurement.recording.milliseconds.push_back(*recording);
         line.update(double(i + 1) / double(warmUp + frames));
     }
     return measurement;
@@ -75,46 +80,114 @@ Json toJson(Json json, const Measurement& measurement, const BenchOptions& optio
         json["passes"].push_back(
             {{"name", pass.name}, {"median_ms", pass.median()}, {"minimum_ms", pass.minimum()}});
     json["frame"] = {{"median_ms", measurement.frame.median()}, {"minimum_ms", measurement.frame.minimum()}};
+    if (const Series& recording = measurement.recording; !recording.milliseconds.empty())
+        json["recording"] = {{"median_ms", recording.median()}, {"minimum_ms", recording.minimum()}};
     return json;
 }
 
-std::string measurementTable(const Measurement& measurement) {
-    std::vector<TableRow> rows;
-    for (const Series& pass : measurement.passes)
-        rows.push_back({pass.name, {pass.median(), pass.minimum()}});
-    rows.push_back({measurement.frame.name, {measurement.frame.median(), measurement.frame.minimum()}});
-    return toTable({"pass", "median [ms]", "minimum [ms]"}, rows);
+// A run of one backend.
+struct Run {
+    runner::BackendInfo backend;
+    ScreenIndirectSettings settings;
+    runner::Precision precision;
+    MemoryUse memory;
+    Measurement measurement;
+};
+
+// Two columns a run. The passes are those of one plan, so that every run has the same.
+std::string measurementTable(const std::vector<Run>& runs) {
+    std::vector<std::string> headings = {"pass"};
+    std::vector<TableRow> rows(runs[0].measurement.passes.size() + 1);
+    rows.back().first = "frame";
+    for (const Run& run : runs) {
+        const std::string prefix = runs.size() > 1 ? run.backend.backend + " " : "";
+        headings.push_back(prefix + "median [ms]");
+        headings.push_back(prefix + "minimum [ms]");
+        for (size_t i = 0; i < rows.size(); ++i) {
+            const bool isPass = i + 1 < rows.size();
+            const bool isMeasured = !isPass || i < run.measurement.passes.size();
+            const Series* series = !isPass ? &run.measurement.frame : isMeasured ? &run.measurement.passes[i] : nullptr;
+            if (isPass && series)
+                rows[i].first = series->name;
+            rows[i].second.push_back(series ? series->median() : NAN);
+            rows[i].second.push_back(series ? series->minimum() : NAN);
+        }
+    }
+    return toTable(headings, rows);
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, ',');)
+        parts.push_back(part);
+    return parts;
+}
+
+Result<Run> benchOn(Preparation& preparation, const SourcedFrame& source, const ScreenIndirectSettings& settings,
+                    const BenchOptions& options) {
+    auto pipeline = FramePipeline::create(source.frame, settings, *preparation.backend, preparation.precision);
+    if (!pipeline)
+        return pipeline.error();
+    auto measurement = measure(*pipeline, options.warmUp, options.frames);
+    if (!measurement)
+        return measurement.error();
+    return Run{preparation.backend->info(), pipeline->settings(), preparation.precision, pipeline->memoryUse(),
+               *std::move(measurement)};
+}
+
+void print(const SourcedFrame& source, const std::vector<Run>& runs, const BenchOptions& options) {
+    const std::string& preset = options.technique.preset;
+    if (options.json) {
+        std::vector<Json> all;
+        for (const Run& run : runs)
+            all.push_back(toJson(runToJson(source, run.settings, preset, run.backend, run.precision, run.memory),
+                                 run.measurement, options));
+        const Json json = all.size() == 1 ? all[0] : Json{{"runs", all}};
+        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        return;
+    }
+    for (const Run& run : runs)
+        std::cout << describeRun(source, run.settings, preset, run.backend, run.precision);
+    std::cout << options.frames << " frames after " << options.warmUp << " to warm up\n\n" << measurementTable(runs);
+    for (const Run& run : runs)
+        if (const Series& recording = run.measurement.recording; !recording.milliseconds.empty())
+            std::cout << "\nrecording a frame takes " << run.backend.backend << "'s host "
+                      << std::lround(recording.median() * 1000.0) << " microseconds, at least "
+                      << std::lround(recording.minimum() * 1000.0);
+    for (const Run& run : runs)
+        std::cout << "\nmemory " << (runs.size() > 1 ? "of " + run.backend.backend + " " : "") << toText(run.memory);
+    std::cout << '\n';
 }
 
 Result<> bench(const BenchOptions& options) {
-    auto preparation = prepare(options.technique, options.device);
-    if (!preparation)
-        return preparation.error();
-    const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
+    std::vector<Preparation> preparations;
+    for (const std::string& backend : split(options.device.backend)) {
+        DeviceChoice choice = options.device;
+        choice.backend = backend;
+        if (backend == "cpu" && options.device.backend != "cpu")
+            choice.device.clear(); // it means the others
+        auto preparation = prepare(options.technique, choice);
+        if (!preparation)
+            return preparation.error();
+        preparations.push_back(*std::move(preparation));
+    }
+    if (preparations.empty())
+        return invalidArgument("--backend is empty; some of cpu, vulkan and opengl were expected");
+    const auto source = obtainFrame(options.source, preparations[0].extent, options.device.threads);
     if (!source)
         return source.error();
     const auto settings = settingsOf(options.technique, source->frame.depth.extent());
     if (!settings)
         return settings.error();
-    auto pipeline = FramePipeline::create(source->frame, *settings, *preparation->backend, preparation->precision);
-    if (!pipeline)
-        return pipeline.error();
-    const auto measurement = measure(*pipeline, options.warmUp, options.frames);
-    if (!measurement)
-        return measurement.error();
-
-    const std::string& preset = options.technique.preset;
-    const runner::BackendInfo info = preparation->backend->info();
-    if (options.json) {
-        const Json run =
-            runToJson(*source, pipeline->settings(), preset, info, preparation->precision, pipeline->memoryUse());
-        std::cout << toJson(run, *measurement, options).dump(2, ' ', false, Json::error_handler_t::replace)
-                  << '\n';
-        return {};
+    std::vector<Run> runs;
+    for (Preparation& preparation : preparations) {
+        auto run = benchOn(preparation, *source, *settings, options);
+        if (!run)
+            return run.error();
+        runs.push_back(*std::move(run));
     }
-    std::cout << describeRun(*source, pipeline->settings(), preset, info, preparation->precision) << options.frames
-              << " frames after " << options.warmUp << " to warm up\n\n"
-              << measurementTable(*measurement) << "\nmemory " << toText(pipeline->memoryUse()) << '\n';
+    print(*source, runs, options);
     return {};
 }
 
@@ -127,6 +200,8 @@ Command addBenchCommand(CLI::App& program) {
     addTechniqueOptions(*app, options->technique);
     addDeviceOptions(*app, options->device);
     excludeSceneOptionsFromFrames(*app);
+    app->get_option("--backend")->description("what the technique runs on: cpu, vulkan or opengl, or several with commas\n"
+                                              "between them (default: cpu)");
     app->add_option("--frames", options->frames, "frames to measure, 1 to 100000 (default: 50)")
         ->option_text("N")
         ->check(CLI::Range(1, 100000))
@@ -144,7 +219,8 @@ Command addBenchCommand(CLI::App& program) {
         "Examples:\n"
         "  rebound bench\n"
         "  rebound bench --size 1920x1080 --preset half-64 --threads 1 --isa scalar --frames 20\n"
-        "  rebound bench --json > quarter-64.json");
+        "  rebound bench --json > quarter-64.json\n"
+        "  rebound bench --backend cpu,vulkan,opengl");
     return [options] { return exitCodeOf(bench(*options)); };
 }
 

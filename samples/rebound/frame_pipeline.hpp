@@ -23,6 +23,7 @@ public:
     Result<double> run() { return prepared->run(); }
 
     const std::vector<PassTiming>& timings() const { return prepared->timings(); } // of the last frame
+    std::optional<double> recordingTime() const { return prepared->recordingTime(); }
     MemoryUse memoryUse() const { return prepared->memoryUse(); }
     const ScreenIndirectSettings& settings() const { return settings_; }
     size_t limitedPixels() const { return limited; } // whose radiance was above what the technique takes

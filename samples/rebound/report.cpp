@@ -82,20 +82,21 @@ std::string toTable(const std::vector<std::string>& headings, const std::vector<
     size_t nameWidth = headings[0].size();
     for (const TableRow& row : rows)
         nameWidth = std::max(nameWidth, row.first.size());
+    const auto widthOf = [](const std::string& heading) { return int(std::max<size_t>(heading.size(), 12)); };
     const auto padded = [&](const std::string& name) {
         return name + std::string(nameWidth - name.size(), ' ');
     };
     std::string text = padded(headings[0]);
     for (size_t i = 1; i < headings.size(); ++i)
-        text += formatted("  %12s", headings[i].c_str());
+        text += formatted("  %*s", widthOf(headings[i]), headings[i].c_str());
     text += "\n";
     const std::string rule(text.size() - 1, '-');
     for (const TableRow& row : rows) {
         if (&row == &rows.back())
             text += rule + "\n";
         text += padded(row.first);
-        for (const double value : row.second)
-            text += formatted("  %12.2f", value);
+        for (size_t i = 0; i < row.second.size(); ++i)
+            text += formatted("  %*.2f", widthOf(headings[i + 1]), row.second[i]);
         text += "\n";
     }
     return text;

@@ -44,11 +44,13 @@ public:
     Result<double> run() override {
         const auto start = std::chrono::steady_clock::now();
         if (auto recorded = program.record(frame); !recorded) return recorded.error();
+        recording = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         glFinish();
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
 
     const std::vector<PassTiming>& timings() const override { return program.timings(); }
+    std::optional<double> recordingTime() const override { return recording; }
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
     Result<lab::Image> read(const std::string& output) override {
@@ -103,6 +105,7 @@ private:
     opengl::Program program;
     std::vector<OpenGLTexture> textures; // by resource; none where it is none of the host's
     FrameInputs<opengl::Image> frame;
+    double recording = 0; // [ms]
 };
 
 class OpenGLBackend : public Backend {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ public:
     virtual Result<double> run() = 0;
     // Of the last run(), a pass each; empty where the backend cannot tell.
     virtual const std::vector<PassTiming>& timings() const = 0;
+    // What recording the last run() took the host, where a GPU then does the work [ms]; nothing on the CPU.
+    virtual std::optional<double> recordingTime() const { return {}; }
     virtual MemoryUse memoryUse() const = 0;
     virtual Result<lab::Image> read(const std::string& output) = 0;
 

@@ -22,6 +22,10 @@ Result<std::unique_ptr<VulkanBuffer>> stagingBuffer(const VulkanContext& context
                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, hostMemory);
 }
 
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 class VulkanPlan : public PreparedPlan {
 public:
     VulkanPlan(const VulkanContext& c, vulkan::Program compiled) : context(c), program(std::move(compiled)) {}
@@ -47,9 +51,14 @@ public:
 
     Result<double> run() override {
         const auto start = std::chrono::steady_clock::now();
-        const auto done = context.run([&](VkCommandBuffer commands) { return program.record(commands, 0, frame); });
+        const auto done = context.run([&](VkCommandBuffer commands) {
+            const auto before = std::chrono::steady_clock::now();
+            auto recorded = program.record(commands, 0, frame);
+            recording = millisecondsSince(before);
+            return recorded;
+        });
         if (!done) return done.error();
-        const double elapsed = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        const double elapsed = millisecondsSince(start);
         auto measured = program.timings(0);
         if (!measured) return measured.error();
         passTimings = *std::move(measured);
@@ -57,6 +66,7 @@ public:
     }
 
     const std::vector<PassTiming>& timings() const override { return passTimings; }
+    std::optional<double> recordingTime() const override { return recording; }
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
     Result<lab::Image> read(const std::string& output) override {
@@ -168,6 +178,7 @@ private:
     std::vector<std::unique_ptr<VulkanImage>> images; // by resource; null where it is none of the host's
     FrameInputs<vulkan::Image> frame;
     std::vector<PassTiming> passTimings;
+    double recording = 0; // [ms]
 };
 
 class VulkanBackend : public Backend {

@@ -56,11 +56,11 @@ using InputStatistics = std::array<float, size_t(4) * 4 * 11>;
 // Fails where the resolution is out of its range.
 //
 // Inputs   depth, normal    as the conventions say
-//          albedo           diffuse reflectance, 0 to 1                                         (albedo only)
-//          radiance         as planScreenIndirect() takes it                                    (radiance
-//          only) lit              as planScreenIndirect() takes it                                    (lit
-//          only) emission         radiance that surfaces emit themselves, as it is in radiance and lit
-//          (emission only) motion           2 channels (motion only)
+//          albedo           diffuse reflectance, 0 to 1                     (albedo only)
+//          radiance         as planScreenIndirect() takes it                (radiance only)
+//          lit              as planScreenIndirect() takes it                (lit only)
+//          emission         what surfaces emit, as it is in radiance and lit (emission only)
+//          motion           2 channels, as motionConventions say            (motion only)
 // Outputs  statistics       4 channels of 32 bits, of inputStatisticsExtent: for examineInputs()
 Result<Plan> planInputCheck(const InputCheckSettings&);
 
