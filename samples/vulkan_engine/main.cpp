@@ -37,7 +37,8 @@ Result<> renderToFile(const Options& o, const host::VulkanContext& context, cons
     auto renderer = Renderer::create(context, scene, o.preset);
     if (!renderer) return renderer.error();
     if (auto sized = (*renderer)->resize(o.size, camera); !sized) return sized;
-    for (int i = 0; i < o.frames; ++i) {
+    const int frames = o.frames.value_or(2);
+    for (int i = 0; i < frames; ++i) {
         const auto done = context.run(
             [&](VkCommandBuffer commands) { return (*renderer)->record(commands, i % framesInFlight, camera); });
         if (!done) return done;
@@ -48,7 +49,7 @@ Result<> renderToFile(const Options& o, const host::VulkanContext& context, cons
     if (auto written = lab::writePng(o.out, lab::toneMap(*composed, curve)); !written) return written;
     std::printf("%s, %d x %d, preset %s, on %s\n", scene.name.c_str(), o.size.width, o.size.height, o.preset.c_str(),
                 context.deviceName().c_str());
-    printTimings(**renderer, (o.frames - 1) % framesInFlight);
+    printTimings(**renderer, (frames - 1) % framesInFlight);
     std::printf("written to %s, exposure %g\n", o.out.c_str(), double(curve.exposure));
     return {};
 }
@@ -103,7 +104,7 @@ int runProgram(int argc, char** argv) {
     app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");
     app.add_option("--preset", o.preset, "Rebound's preset (default: quarter-64)");
     app.add_option("--out", o.out, "the picture (default: vulkan_engine.png)");
-    app.add_option("--frames", o.frames, "frames to render; the last one is written (default: 2)");
+    app.add_option("--frames", o.frames, "frames to render; the last one is written (default: 2; in a window, until it is closed)");
     app.add_option("--device", o.device, "part of a device's name (default: the first, discrete ones before others)");
     app.add_flag("--validation", o.validation, "run with validation and synchronization validation, and fail on messages");
 #ifdef REBOUND_HAS_WINDOW
@@ -117,7 +118,7 @@ int runProgram(int argc, char** argv) {
     }
     if (!parseSize(size, o.size))
         return fail("--size is \"" + size + "\"; WIDTHxHEIGHT, each 1 to " + std::to_string(maximumExtent) + " pixels, was expected");
-    if (o.frames < 1) return fail("--frames is " + std::to_string(o.frames) + "; 1 or more was expected");
+    if (o.frames && *o.frames < 1) return fail("--frames is " + std::to_string(*o.frames) + "; 1 or more was expected");
     const auto done = run(o);
     return done ? 0 : fail(done.error().message);
 }

@@ -3,6 +3,7 @@
 
 #include "rebound/extent.hpp"
 
+#include <optional>
 #include <string>
 
 namespace rebound::engine {
@@ -10,7 +11,7 @@ namespace rebound::engine {
 struct Options {
     std::string scene = "builtin:atrium", view, camera, preset = "quarter-64", out = "vulkan_engine.png", device;
     Extent2D size{1280, 720};
-    int frames = 2;
+    std::optional<int> frames; // absent: 2, or in a window as many as it takes until it is closed
     bool validation = false;
     bool window = false;
 };

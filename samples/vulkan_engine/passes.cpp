@@ -139,6 +139,19 @@ VkPipeline makePipeline(Objects& objects, const GraphicsPipeline& p) {
                                     info, "creating a pipeline");
 }
 
+VkFramebuffer makeFramebuffer(Objects& objects, VkRenderPass pass, std::initializer_list<Objects::Image> images) {
+    std::vector<VkImageView> views;
+    for (const Objects::Image& image : images) views.push_back(image.view);
+    auto info = structure<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
+    info.renderPass = pass;
+    info.attachmentCount = uint32_t(views.size());
+    info.pAttachments = views.data();
+    info.width = uint32_t(images.begin()->extent.width);
+    info.height = uint32_t(images.begin()->extent.height);
+    info.layers = 1;
+    return objects.make(vkCreateFramebuffer, vkDestroyFramebuffer, info, "creating a framebuffer");
+}
+
 Passes makePasses(Objects& objects, VkDescriptorSetLayout materialLayout) {
     Passes p;
     constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;

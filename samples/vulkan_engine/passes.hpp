@@ -39,5 +39,7 @@ struct GraphicsPipeline {
     bool vertices = true;                           // of Vertex; false: the shader makes its own
 };
 VkPipeline makePipeline(Objects&, const GraphicsPipeline&);
+// Of the first image's size.
+VkFramebuffer makeFramebuffer(Objects&, VkRenderPass, std::initializer_list<Objects::Image>);
 
 } // namespace rebound::engine

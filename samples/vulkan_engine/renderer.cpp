@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace rebound::engine {
 namespace {
@@ -14,19 +15,6 @@ void recordBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccess
     barrier.srcAccessMask = written;
     barrier.dstAccessMask = used;
     vkCmdPipelineBarrier(commands, from, to, 0, 1, &barrier, 0, nullptr, 0, nullptr);
-}
-
-VkFramebuffer makeFramebuffer(Objects& objects, VkRenderPass pass, std::initializer_list<Objects::Image> images) {
-    std::vector<VkImageView> views;
-    for (const Objects::Image& image : images) views.push_back(image.view);
-    auto info = structure<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
-    info.renderPass = pass;
-    info.attachmentCount = uint32_t(views.size());
-    info.pAttachments = views.data();
-    info.width = uint32_t(images.begin()->extent.width);
-    info.height = uint32_t(images.begin()->extent.height);
-    info.layers = 1;
-    return objects.make(vkCreateFramebuffer, vkDestroyFramebuffer, info, "creating a framebuffer");
 }
 
 } // namespace
@@ -98,12 +86,6 @@ Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
     writeImage(device, set, 4, sampled, passes.nearest, shadowMap.view, depthLayout);
     writeImage(device, set, 5, image, VK_NULL_HANDLE, next->lit.view, VK_IMAGE_LAYOUT_GENERAL);
     writeBuffer(device, set, 6, buffer, scene->lightBuffer, VK_WHOLE_SIZE);
-    auto transitioned = context.run([&](VkCommandBuffer commands) -> Result<> {
-        for (const Objects::Image& written : {next->lit, next->indirect, next->composed})
-            host::recordTransition(commands, written.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-        return {};
-    });
-    if (!transitioned) return transitioned;
     // [rebound resize]
     auto replaced = indirect.compile(preset, conventionsOf(view), size);
     if (!replaced) return replaced.error(); // nothing has changed yet
@@ -192,6 +174,9 @@ Result<> Renderer::record(VkCommandBuffer commands, int frame, const lab::Camera
                      shadowMap.extent, {&farthest, 1});
     recordRasterPass(commands, frame, passes.gbufferPass, current->framebuffer, passes.gbuffer, passes.sceneLayout,
                      current->lit.extent, clear);
+    if (!std::exchange(current->used, true))
+        for (const Objects::Image& written : {current->lit, current->indirect, current->composed})
+            host::recordTransition(commands, written.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     // [rebound barriers]
     // Before: lit, indirect and composed are about to be written by compute shaders; the frame before may still be read
     // from them, by compute shaders, the presenting fragment shader or a copy. Layouts stay GENERAL.

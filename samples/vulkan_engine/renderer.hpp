@@ -20,6 +20,7 @@ struct Targets {
     Objects::Image indirect, composed;                      // written by Rebound
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     VkDescriptorSet lightSet = VK_NULL_HANDLE;
+    bool used = false;                                      // until then, images have no layout
 };
 
 class Renderer {

@@ -2,62 +2,13 @@
 // Frames in flight, resizes, motion vectors, lights.
 #include "engine_run.hpp"
 
+#include "vulkan_engine/frame_loop.hpp"
 #include "vulkan_engine/lights.hpp"
 
 #include <cmath>
 #include <numbers>
 
 namespace rebound::engine {
-namespace {
-
-// Two frames in flight, as a window has them: command buffers and fences of their own.
-class FrameLoop {
-public:
-    explicit FrameLoop(const host::VulkanContext& c) : context(c) {
-        auto poolInfo = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-        poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-        poolInfo.queueFamilyIndex = context.queueFamily();
-        REQUIRE(vkCreateCommandPool(context.device(), &poolInfo, nullptr, &pool) == VK_SUCCESS);
-        auto allocation = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-        allocation.commandPool = pool;
-        allocation.commandBufferCount = framesInFlight;
-        REQUIRE(vkAllocateCommandBuffers(context.device(), &allocation, commands) == VK_SUCCESS);
-        auto fenceInfo = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-        fenceInfo.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-        for (VkFence& fence : fences) REQUIRE(vkCreateFence(context.device(), &fenceInfo, nullptr, &fence) == VK_SUCCESS);
-    }
-    FrameLoop(const FrameLoop&) = delete;
-    FrameLoop& operator=(const FrameLoop&) = delete;
-    ~FrameLoop() {
-        vkDeviceWaitIdle(context.device());
-        for (VkFence fence : fences) vkDestroyFence(context.device(), fence, nullptr);
-        vkDestroyCommandPool(context.device(), pool, nullptr);
-    }
-
-    void render(Renderer& renderer, const lab::CameraView& view) {
-        const size_t frame = next++ % framesInFlight;
-        REQUIRE(vkWaitForFences(context.device(), 1, &fences[frame], VK_TRUE, UINT64_MAX) == VK_SUCCESS);
-        vkResetFences(context.device(), 1, &fences[frame]);
-        const auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-        REQUIRE(vkBeginCommandBuffer(commands[frame], &begin) == VK_SUCCESS);
-        require(renderer.record(commands[frame], int(frame), view));
-        REQUIRE(vkEndCommandBuffer(commands[frame]) == VK_SUCCESS);
-        auto submit = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands[frame];
-        REQUIRE(vkQueueSubmit(context.queue(), 1, &submit, fences[frame]) == VK_SUCCESS);
-    }
-
-private:
-    const host::VulkanContext& context;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands[framesInFlight] = {};
-    VkFence fences[framesInFlight] = {};
-    size_t next = 0;
-};
-
-} // namespace
-
 TEST_CASE("resizes between frames in flight: no message, and the picture of a renderer that was never resized") {
     const auto context = openContext();
     if (!context) return;
@@ -65,12 +16,14 @@ TEST_CASE("resizes between frames in flight: no message, and the picture of a re
     const lab::CameraView& view = scene.cameras.at(0);
     {
         const auto renderer = rendererFor(*context, scene, {64, 48}, view);
-        lab::Image last;
         {
-            FrameLoop loop(*context);
+            const auto loop = require(FrameLoop::create(*context));
             for (Extent2D size : {Extent2D{64, 48}, Extent2D{97, 33}, Extent2D{31, 57}, Extent2D{1, 1}, Extent2D{96, 64}}) {
                 require(renderer->resize(size, view));
-                for (int i = 0; i < 3; ++i) loop.render(*renderer, view);
+                for (int i = 0; i < 3; ++i) {
+                    require(renderer->record(require(loop->begin()), loop->frame(), view));
+                    require(loop->submit());
+                }
             }
         }
         const auto fresh = rendererFor(*context, scene, {96, 64}, view);

@@ -53,6 +53,18 @@ TEST_CASE("a picture of a built-in scene, with validation on") {
     CHECK(folder.count() == 1);
 }
 
+TEST_CASE("a window, with validation on, where there is a display") {
+    if (!openContext()) return;
+    const lab::TemporaryFolder folder;
+    if (run("--help", folder.path()).output.find("--window") == std::string::npos || !std::getenv("DISPLAY")) {
+        MESSAGE("not run: the build has no GLFW, or DISPLAY names no display");
+        return;
+    }
+    const Outcome outcome = run("builtin:cornell --window --size 200x150 --frames 5 --validation", folder.path());
+    CHECK_MESSAGE(outcome.exitCode == 0, outcome.errors);
+    CHECK(folder.count() == 0);
+}
+
 TEST_CASE("what it cannot do ends in one sentence and exit code 2") {
     checkRefused("--size 10", "--size is \"10\"; WIDTHxHEIGHT");
     checkRefused("--size 0x10", "--size is \"0x10\"");
