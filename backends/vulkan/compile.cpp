@@ -48,11 +48,12 @@ Result<> bindTransients(State& s, const State* sharing) {
     if (sharing) {
         s.transientMemory = sharing->transientMemory;
         if (!s.transientMemory || s.transientMemory->size < block.size ||
-            !(block.memoryTypeBits >> s.transientMemory->block.memoryType & 1u))
+            !(block.memoryTypeBits >> s.transientMemory->block.memoryType & 1u) ||
+            s.transientMemory->block.offset % block.alignment != 0)
             return invalidArgument("shareTransientsWith has " +
                                    std::to_string(s.transientMemory ? s.transientMemory->size : 0) +
                                    " bytes of transients; " + std::to_string(block.size) +
-                                   " of a memory type that suits were expected");
+                                   " of a memory type and an alignment that suit were expected");
     } else {
         auto memory = allocateMemory(s.device, {block, false});
         if (!memory) return memory.error();

@@ -53,22 +53,34 @@ Result<> createSampler(Device::Shared& d) {
     return check(d.vk.CreateSampler(d.device, &info, nullptr, &d.sampler), "creating a sampler");
 }
 
-// Whether a stored cache was made by this driver for this device: others are refused by some drivers, and crash some.
-bool isCacheOf(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties) {
+// FNV-1a, behind the driver's bytes: a file that was cut or spoilt is not for drivers, some of which trust it.
+uint64_t checksumOf(std::span<const std::byte> bytes) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (std::byte b : bytes) hash = (hash ^ uint64_t(b)) * 0x100000001b3u;
+    return hash;
+}
+
+// The driver's bytes of a stored cache; none where it is spoilt, or was made by another driver or for another device:
+// those are refused by some drivers, and crash some.
+std::span<const std::byte> storedCache(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties) {
     VkPipelineCacheHeaderVersionOne header;
-    if (bytes.size() < sizeof header) return false;
-    std::memcpy(&header, bytes.data(), sizeof header);
-    return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == properties.vendorID &&
-           header.deviceID == properties.deviceID &&
-           std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
+    uint64_t checksum = 0;
+    if (bytes.size() < sizeof header + sizeof checksum) return {};
+    const auto driverBytes = bytes.first(bytes.size() - sizeof checksum);
+    std::memcpy(&header, driverBytes.data(), sizeof header);
+    std::memcpy(&checksum, driverBytes.data() + driverBytes.size(), sizeof checksum);
+    const bool usable = header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+                        header.vendorID == properties.vendorID && header.deviceID == properties.deviceID &&
+                        std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0 &&
+                        checksum == checksumOf(driverBytes);
+    return usable ? driverBytes : std::span<const std::byte>();
 }
 
 Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties) {
     auto info = structure<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
-    if (isCacheOf(bytes, properties)) {
-        info.initialDataSize = bytes.size();
-        info.pInitialData = bytes.data();
-    }
+    const auto stored = storedCache(bytes, properties);
+    info.initialDataSize = stored.size();
+    info.pInitialData = stored.data();
     return check(d.vk.CreatePipelineCache(d.device, &info, nullptr, &d.cache), "creating a pipeline cache");
 }
 
@@ -76,10 +88,12 @@ Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes, const 
 
 Result<> check(VkResult result, const std::string& what) {
     if (result == VK_SUCCESS) return {};
+    const bool shortOfMemory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
+                               result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL ||
+                               result == VK_ERROR_TOO_MANY_OBJECTS;
     const ErrorCode code = result == VK_ERROR_DEVICE_LOST ? ErrorCode::deviceLost
-                           : result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY
-                               ? ErrorCode::outOfMemory
-                               : ErrorCode::unsupported;
+                           : shortOfMemory                ? ErrorCode::outOfMemory
+                                                          : ErrorCode::unsupported;
     const char* name = nameOf(result);
     return Error{code, what + " failed with " + (name ? name : "VkResult " + std::to_string(int(result)))};
 }
@@ -146,6 +160,9 @@ Result<std::vector<std::byte>> Device::pipelineCache() const {
     if (result != VK_INCOMPLETE)
         if (auto read = check(result, "reading the pipeline cache"); !read) return read.error();
     bytes.resize(size);
+    const uint64_t checksum = checksumOf(bytes);
+    bytes.resize(size + sizeof checksum);
+    std::memcpy(bytes.data() + size, &checksum, sizeof checksum);
     return bytes;
 }
 

@@ -39,7 +39,8 @@ struct DeviceOptions {
     uint32_t queueFamily = 0;                     // of the command buffers: a family that computes
     MemoryAllocator allocator;                    // the host's; empty: one vkAllocateMemory for a program's transients
                                                   // and one for its buffers
-    std::span<const std::byte> pipelineCache;     // what pipelineCache() gave in an earlier run; may be empty or stale
+    std::span<const std::byte> pipelineCache;     // what pipelineCache() gave in an earlier run; may be empty,
+                                                  // stale or spoilt: then it is left out
     bool timings = false;                         // whether programs measure their passes
     bool debugUtils = false;                      // the host has enabled VK_EXT_debug_utils: name objects, label passes
     // Shaders beside the techniques' own, of an engine that writes some; looked up first.
@@ -68,7 +69,7 @@ public:
     // What compile() would allocate, alignment and padding of the driver included.
     Result<MemoryUse> memoryUse(const Plan&, const CompileOptions& = {}) const;
 
-    // The driver's compiled pipelines, for DeviceOptions::pipelineCache of a later run.
+    // The driver's compiled pipelines and a checksum, for DeviceOptions::pipelineCache of a later run.
     Result<std::vector<std::byte>> pipelineCache() const;
 
     struct Shared;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "gpu_scene.hpp"
+
+namespace rebound::engine {
+namespace {
+
+VkSamplerAddressMode addressMode(lab::Wrap wrap) {
+    switch (wrap) {
+    case lab::Wrap::mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case lab::Wrap::clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+MaterialConstants constantsOf(const lab::Scene& scene, const lab::Material& m) {
+    const glm::vec3 emission = scene.emissiveMaterialsLight ? m.emission : glm::vec3(0.0f);
+    return {m.baseColor, {emission, m.alphaMasked ? m.alphaCutoff : -1.0f}};
+}
+
+} // namespace
+
+Result<std::unique_ptr<GpuScene>> GpuScene::create(const host::VulkanContext& context, const lab::Scene& scene) {
+    std::unique_ptr<GpuScene> result(new GpuScene(context));
+    result->addMeshes(scene);
+    result->addMaterials(context.device(), scene);
+    result->lights = lightsOf(scene);
+    result->lightBuffer =
+        result->objects.buffer(std::as_bytes(std::span(result->lights.lights)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (!result->objects.status()) return result->objects.status().error();
+    return result;
+}
+
+void GpuScene::addMeshes(const lab::Scene& scene) {
+    std::vector<Vertex> allVertices;
+    std::vector<uint32_t> allIndices;
+    for (const lab::Mesh& mesh : scene.meshes) {
+        if (mesh.indices.empty()) continue;
+        parts.push_back({uint32_t(allIndices.size()), uint32_t(mesh.indices.size()), int32_t(allVertices.size()),
+                         size_t(mesh.material)});
+        allIndices.insert(allIndices.end(), mesh.indices.begin(), mesh.indices.end());
+        for (size_t i = 0; i < mesh.positions.size(); ++i)
+            allVertices.push_back({mesh.positions[i], mesh.normals[i],
+                                   mesh.textureCoordinates.empty() ? glm::vec2(0.0f) : mesh.textureCoordinates[i]});
+    }
+    vertices = objects.buffer(std::as_bytes(std::span(allVertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    indices = objects.buffer(std::as_bytes(std::span(allIndices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+}
+
+void GpuScene::addMaterials(VkDevice device, const lab::Scene& scene) {
+    constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    materialLayout = objects.setLayout({sampled, sampled}, VK_SHADER_STAGE_FRAGMENT_BIT);
+    const std::byte white[4] = {std::byte(255), std::byte(255), std::byte(255), std::byte(255)};
+    std::vector<Objects::Image> images = {objects.texture({1, 1}, VK_FORMAT_R8G8B8A8_SRGB, white)};
+    std::vector<VkSampler> samplers = {
+        objects.sampler(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT)};
+    for (const lab::Texture& texture : scene.textures) {
+        images.push_back(objects.texture({texture.width, texture.height}, VK_FORMAT_R8G8B8A8_SRGB,
+                                         std::as_bytes(std::span(texture.rgba))));
+        samplers.push_back(objects.sampler(VK_FILTER_LINEAR, addressMode(texture.wrapS), addressMode(texture.wrapT)));
+    }
+    const uint32_t count = uint32_t(scene.materials.size());
+    const VkDescriptorPool pool = objects.descriptorPool(count, {{sampled, 2 * count}});
+    for (const lab::Material& material : scene.materials) {
+        const VkDescriptorSet set = objects.descriptorSet(pool, materialLayout);
+        if (objects.failed()) return;
+        uint32_t binding = 0;
+        for (int texture : {material.baseColorTexture, material.emissionTexture}) {
+            const size_t index = size_t(texture + 1); // lab::none is -1: white
+            writeImage(device, set, binding++, sampled, samplers[index], images[index].view,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        }
+        sets.push_back(set);
+        constants.push_back(constantsOf(scene, material));
+    }
+}
+
+void GpuScene::draw(VkCommandBuffer commands, VkPipelineLayout layout) const {
+    const VkDeviceSize start = 0;
+    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &start);
+    vkCmdBindIndexBuffer(commands, indices, 0, VK_INDEX_TYPE_UINT32);
+    for (const Part& part : parts) {
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &sets[part.material], 0, nullptr);
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(MaterialConstants),
+                           &constants[part.material]);
+        vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, part.vertexOffset, 0);
+    }
+}
+
+} // namespace rebound::engine

@@ -1,0 +1,22 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: MIT
+#include "frame.glsl"
+
+layout(location = 0) in vec3 position; // world space [m]
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 textureCoordinate;
+layout(location = 0) out vec3 worldPosition;
+layout(location = 1) out vec3 worldNormal;
+layout(location = 2) out vec2 coordinate;
+layout(location = 3) out vec4 clip;
+layout(location = 4) out vec4 previousClip;
+
+void main() {
+    worldPosition = position;
+    worldNormal = normal;
+    coordinate = textureCoordinate;
+    clip = frame.viewProjection * vec4(position, 1.0);
+    previousClip = frame.previousViewProjection * vec4(position, 1.0);
+    gl_Position = clip;
+}

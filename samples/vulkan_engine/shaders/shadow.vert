@@ -1,0 +1,13 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: MIT
+#include "frame.glsl"
+
+layout(location = 0) in vec3 position; // world space [m]
+layout(location = 2) in vec2 textureCoordinate;
+layout(location = 0) out vec2 coordinate;
+
+void main() {
+    coordinate = textureCoordinate;
+    gl_Position = frame.shadowMatrix * vec4(position, 1.0);
+}
