@@ -15,7 +15,7 @@
 
 namespace rebound::test {
 
-// Where Vulkan or its validation layer is missing, null, and a message that ctest takes for a skipped test.
+// Where Vulkan or its validation layer is missing, null, and a message that says so.
 class VulkanHost {
 public:
     static std::unique_ptr<VulkanHost> open();

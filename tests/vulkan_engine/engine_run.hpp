@@ -11,7 +11,7 @@
 
 namespace rebound::engine {
 
-// Null, and a message that ctest takes for a skipped test, where Vulkan or its validation layer is missing.
+// Null, and a message that says so, where Vulkan or its validation layer is missing.
 inline std::unique_ptr<host::VulkanContext> openContext() {
     host::VulkanOptions options;
     options.validation = true;
