@@ -39,6 +39,7 @@ Result<> Renderer::createOnce(const lab::Scene& labScene) {
     shadowFramebuffer = makeFramebuffer(objects, passes.shadowPass, {shadowMap});
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(context.physicalDevice(), &properties);
+    largestSide = properties.limits.maxImageDimension2D;
     const VkDeviceSize alignment = properties.limits.minUniformBufferOffsetAlignment;
     frameStride = (sizeof(FrameConstants) + alignment - 1) / alignment * alignment;
     frameBuffer = objects.mappedBuffer(frameStride * framesInFlight, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
@@ -68,6 +69,10 @@ void Renderer::makeTargets(Targets& t, Extent2D size) {
 // [/rebound images]
 
 Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
+    if (uint32_t(std::max(size.width, size.height)) > largestSide)
+        return Error{ErrorCode::unsupported, "the picture is " + std::to_string(size.width) + "x" +
+                                                 std::to_string(size.height) + "; this device's images have at most " +
+                                                 std::to_string(largestSide) + " texels a side"};
     auto next = std::make_shared<Targets>(context);
     makeTargets(*next, size);
     next->framebuffer = makeFramebuffer(next->objects, passes.gbufferPass,

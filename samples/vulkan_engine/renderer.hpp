@@ -60,6 +60,7 @@ private:
     std::unique_ptr<GpuScene> scene;
     Passes passes;
     host::VulkanBuffer* frameBuffer = nullptr;
+    uint32_t largestSide = 0;     // of the device's images [texels]
     VkDeviceSize frameStride = 0; // from one frame's constants to the next [bytes]
     VkDescriptorSet frameSet = VK_NULL_HANDLE;
     Objects::Image shadowMap;

@@ -37,6 +37,7 @@ Subject cornell() {
     subject.settings.emission = true;
     subject.camera = lab::cameraMatrices(*view, extent);
     subject.frame = *std::move(frame);
+    if (subject.frame.emission.empty()) subject.frame.emission = lab::Image(extent, 3);
     return subject;
 }
 

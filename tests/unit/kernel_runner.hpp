@@ -96,7 +96,7 @@ inline Plan planOf(const KernelCall& call) {
     for (const auto& [slot, picture] : call.inputs)
         pass.bindings.push_back({slot, plan.add({"input " + std::to_string(slot),
                                                  ResourceKind::input,
-                                                 {},
+                                                 Format::rgba32f,
                                                  picture->channels,
                                                  picture->extent,
                                                  {},
@@ -104,7 +104,7 @@ inline Plan planOf(const KernelCall& call) {
     for (const auto& [slot, data] : call.constants)
         pass.bindings.push_back({slot, plan.add(bufferResource("constants " + std::to_string(slot), data))});
     pass.bindings.push_back({call.outputSlot,
-                             plan.add({"result", ResourceKind::output, {}, 4, call.grid, {}, 0}),
+                             plan.add({"result", ResourceKind::output, Format::rgba32f, 4, call.grid, {}, 0}),
                              Access::write});
     plan.passes.push_back(pass);
     return plan;

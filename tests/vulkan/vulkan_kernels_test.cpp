@@ -22,22 +22,6 @@ int countDifferences(const Picture& gpu, const Picture& cpu, double share, doubl
     return wrong;
 }
 
-// A kernel that reads and writes images of the host.
-Plan planOf(const KernelCall& call) {
-    Plan plan{"test", {}, {}};
-    Pass pass{"pass", call.kernel, call.features, {}, call.grid};
-    for (const auto& [slot, picture] : call.inputs)
-        pass.bindings.push_back({slot, plan.add({"input " + std::to_string(slot), ResourceKind::input, Format::rgba32f,
-                                                 picture->channels, picture->extent, {}, 0})});
-    for (const auto& [slot, data] : call.constants)
-        pass.bindings.push_back({slot, plan.add(bufferResource("constants " + std::to_string(slot), data))});
-    pass.bindings.push_back({call.outputSlot,
-                             plan.add({"result", ResourceKind::output, Format::rgba32f, 4, call.grid, {}, 0}),
-                             Access::write});
-    plan.passes.push_back(pass);
-    return plan;
-}
-
 class Comparison {
 public:
     explicit Comparison(const VulkanHost& h) : host(h), device(h.device()) {}

@@ -33,6 +33,9 @@ TEST_CASE("resizes between frames in flight: no message, and the picture of a re
         CHECK(mean(require(fresh->read(fresh->targets().composed, 3))) > 0.0);
         const auto timings = require(renderer->indirectLight().timings(0));
         CHECK(timings.size() > 5);
+        // A size that is refused leaves what was.
+        CHECK_FALSE(renderer->resize({1 << 30, 8}, view));
+        CHECK(renderer->targets().lit.extent == Extent2D{96, 64});
     }
     checkSilence(*context);
 }
