@@ -53,7 +53,8 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
     app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");
     app.add_option("--preset", o.preset, "Rebound's preset (default: quarter-64)");
     app.add_option("--out", o.out, "the picture (default: " + program.out + ")");
-    app.add_option("--frames", o.frames, "frames to render; the last one is written (default: 2; in a window, until it is closed)");
+    app.add_option("--frames", o.frames,
+                   "frames to render; the last one is written (default: 2; in a window, until it is closed)");
     app.add_option("--device", o.device, program.device);
     app.add_flag("--validation", o.validation, program.validation);
     if (program.window)

@@ -2,8 +2,8 @@
 // Frames in flight, resizes, motion vectors, lights.
 #include "engine_run.hpp"
 
+#include "engine/lights.hpp"
 #include "vulkan_engine/frame_loop.hpp"
-#include "vulkan_engine/lights.hpp"
 
 #include <cmath>
 #include <numbers>
