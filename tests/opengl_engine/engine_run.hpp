@@ -12,13 +12,7 @@
 
 namespace rebound::engine {
 
-// Null, and a message that ctest takes for a skipped test, where there is no OpenGL.
-inline std::unique_ptr<host::OpenGLContext> openContext() {
-    auto context = host::OpenGLContext::create(host::OpenGLApi::desktop);
-    if (context) return std::make_unique<host::OpenGLContext>(*std::move(context));
-    MESSAGE("skipped: ", context.error().message);
-    return nullptr;
-}
+inline host::OpenGLContext openContext() { return require(host::OpenGLContext::create(host::OpenGLApi::desktop)); }
 
 inline void checkSilence(host::OpenGLContext& context) {
     for (const std::string& message : context.takeMessages()) FAIL_CHECK(message);
