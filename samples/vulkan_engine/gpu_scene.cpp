@@ -12,16 +12,11 @@ VkSamplerAddressMode addressMode(lab::Wrap wrap) {
     }
 }
 
-MaterialConstants constantsOf(const lab::Scene& scene, const lab::Material& m) {
-    const glm::vec3 emission = scene.emissiveMaterialsLight ? m.emission : glm::vec3(0.0f);
-    return {m.baseColor, {emission, m.alphaMasked ? m.alphaCutoff : -1.0f}};
-}
-
 } // namespace
 
 Result<std::unique_ptr<GpuScene>> GpuScene::create(const host::VulkanContext& context, const lab::Scene& scene) {
     std::unique_ptr<GpuScene> result(new GpuScene(context));
-    result->addMeshes(scene);
+    result->addMeshes(sceneDataOf(scene));
     result->addMaterials(context.device(), scene);
     result->lights = lightsOf(scene);
     result->lightBuffer =
@@ -30,20 +25,11 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(const host::VulkanContext& co
     return result;
 }
 
-void GpuScene::addMeshes(const lab::Scene& scene) {
-    std::vector<Vertex> allVertices;
-    std::vector<uint32_t> allIndices;
-    for (const lab::Mesh& mesh : scene.meshes) {
-        if (mesh.indices.empty()) continue;
-        parts.push_back({uint32_t(allIndices.size()), uint32_t(mesh.indices.size()), int32_t(allVertices.size()),
-                         size_t(mesh.material)});
-        allIndices.insert(allIndices.end(), mesh.indices.begin(), mesh.indices.end());
-        for (size_t i = 0; i < mesh.positions.size(); ++i)
-            allVertices.push_back({mesh.positions[i], mesh.normals[i],
-                                   mesh.textureCoordinates.empty() ? glm::vec2(0.0f) : mesh.textureCoordinates[i]});
-    }
-    vertices = objects.buffer(std::as_bytes(std::span(allVertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    indices = objects.buffer(std::as_bytes(std::span(allIndices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+void GpuScene::addMeshes(const SceneData& data) {
+    vertices = objects.buffer(std::as_bytes(std::span(data.vertices)), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    indices = objects.buffer(std::as_bytes(std::span(data.indices)), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    parts = data.parts;
+    constants = data.materials;
 }
 
 void GpuScene::addMaterials(VkDevice device, const lab::Scene& scene) {
@@ -70,7 +56,6 @@ void GpuScene::addMaterials(VkDevice device, const lab::Scene& scene) {
                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         }
         sets.push_back(set);
-        constants.push_back(constantsOf(scene, material));
     }
 }
 
@@ -78,7 +63,7 @@ void GpuScene::draw(VkCommandBuffer commands, VkPipelineLayout layout) const {
     const VkDeviceSize start = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &start);
     vkCmdBindIndexBuffer(commands, indices, 0, VK_INDEX_TYPE_UINT32);
-    for (const Part& part : parts) {
+    for (const SceneData::Part& part : parts) {
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &sets[part.material], 0, nullptr);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(MaterialConstants),
                            &constants[part.material]);

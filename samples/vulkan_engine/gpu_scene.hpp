@@ -2,22 +2,12 @@
 // A scene on the GPU: one vertex and one index buffer, textures, and a descriptor set a material.
 #pragma once
 
-#include "lights.hpp"
 #include "objects.hpp"
 
-#include "lab/scene.hpp"
+#include "engine/lights.hpp"
+#include "engine/scene_data.hpp"
 
 namespace rebound::engine {
-
-struct Vertex {
-    glm::vec3 position, normal;
-    glm::vec2 textureCoordinate;
-};
-
-// Push constants; their twin is in shaders/material.glsl.
-struct MaterialConstants {
-    glm::vec4 baseColor, emission;
-};
 
 class GpuScene {
 public:
@@ -32,20 +22,15 @@ public:
     VkBuffer lightBuffer = VK_NULL_HANDLE;
 
 private:
-    struct Part {
-        uint32_t firstIndex, indexCount;
-        int32_t vertexOffset;
-        size_t material;
-    };
     explicit GpuScene(const host::VulkanContext& context) : objects(context) {}
-    void addMeshes(const lab::Scene&);
+    void addMeshes(const SceneData&);
     void addMaterials(VkDevice, const lab::Scene&);
 
     Objects objects;
     VkBuffer vertices = VK_NULL_HANDLE, indices = VK_NULL_HANDLE;
-    std::vector<Part> parts;
+    std::vector<SceneData::Part> parts;
     std::vector<VkDescriptorSet> sets; // by material
-    std::vector<MaterialConstants> constants;
+    std::vector<MaterialConstants> constants; // by material, pushed
 };
 
 } // namespace rebound::engine

@@ -2,8 +2,7 @@
 // A window with an orbit camera.
 #pragma once
 
-#include "options.hpp"
-
+#include "engine/command_line.hpp"
 #include "host/vulkan_context.hpp"
 #include "lab/scene.hpp"
 

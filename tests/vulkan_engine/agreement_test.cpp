@@ -5,32 +5,11 @@
 #include "lab/camera_matrices.hpp"
 #include "lab/frame.hpp"
 #include "lab/image_files.hpp"
-#include "runner/runner.hpp"
-#include "runner/texels.hpp"
 
 #include <cmath>
 
 namespace rebound::engine {
 namespace {
-
-struct Light {
-    lab::Image indirect, composed;
-};
-
-// The plan on the scalar CPU, its images in half precision as the engine's are.
-Light onCpu(const ScreenIndirectSettings& settings, const Camera& camera, std::vector<runner::NamedPicture> images) {
-    struct NoImage {};
-    ScreenIndirectFrame<NoImage> frame;
-    frame.camera = camera;
-    auto inputs = require(screenIndirectInputs(settings, frame));
-    runner::BackendChoice choice;
-    choice.isa = cpu::Isa::scalar;
-    const auto backend = require(runner::createBackend(choice));
-    const auto prepared = require(
-        backend->prepare(require(planScreenIndirect(settings)), {std::move(images), inputs.constants}, {}));
-    require(prepared->run());
-    return {require(prepared->read("indirect")), require(prepared->read("composed"))};
-}
 
 // Vulkan leaves open which way a store rounds to half; llvmpipe's rounds towards zero, by 2^-11 of a value on average
 // and 2^-10 at most. Light passes through about a dozen stores on its way from the G-buffer to the result, each of them

@@ -3,7 +3,6 @@
 #include "engine_run.hpp"
 
 #include "vulkan_engine/frame_loop.hpp"
-#include "vulkan_engine/lights.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -131,39 +130,6 @@ TEST_CASE("a spot light, a point light, emission and an alpha mask, against clos
         CHECK(side[2] == doctest::Approx(0.5f / pi * 18.0f * 3.0f / std::pow(squared, 1.5f)).epsilon(2e-3));
     }
     checkSilence(*context);
-}
-
-TEST_CASE("area lights and emissive triangles become samples of the same power") {
-    const lab::Scene box = lab::makeCornellBox();
-    const LightSetup lamp = lightsOf(box);
-    REQUIRE(lamp.count == 16);
-    CHECK(lamp.shadowed == 16);
-    float power = 0.0f, area = 0.0f;
-    for (const GpuLight& light : lamp.lights) {
-        power += light.intensity.x;
-        area += light.intensity.w * std::numbers::pi_v<float>;
-        CHECK(std::abs(light.position.x) < 0.65f);
-    }
-    CHECK(power == doctest::Approx(12.0 * 1.3 * 1.05));
-    CHECK(area == doctest::Approx(1.3 * 1.05));
-
-    lab::Scene glowing = box;
-    glowing.lights.clear();
-    glowing.materials[1].emission = {2.0f, 0.0f, 0.0f}; // the left wall
-    const LightSetup wall = lightsOf(glowing);
-    REQUIRE(wall.count == 64);
-    CHECK(wall.shadowed == 0);
-    power = 0.0f;
-    for (const GpuLight& light : wall.lights) power += light.intensity.x;
-    float sum = 0.0f;
-    for (const lab::Mesh& mesh : glowing.meshes)
-        for (size_t i = 0; mesh.material == 1 && i < mesh.indices.size(); i += 3) {
-            const glm::vec3 a = mesh.positions[mesh.indices[i]];
-            sum += glm::length(glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a));
-        }
-    CHECK(power == doctest::Approx(double(sum))); // twice the half areas
-    glowing.emissiveMaterialsLight = false;
-    CHECK(lightsOf(glowing).count == 0);
 }
 
 } // namespace rebound::engine

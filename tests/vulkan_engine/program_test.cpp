@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The program itself: its picture, and how it refuses. Its path is in the environment variable REBOUND_VULKAN_ENGINE.
-#include "../lab/temporary_folder.hpp"
+#include "../engine/program.hpp"
 #include "engine_run.hpp"
-
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <cstdlib>
 
 namespace rebound::engine {
 namespace {
 
-struct Outcome {
-    int exitCode = -1;
-    std::string output, errors;
-};
+constexpr const char* variable = "REBOUND_VULKAN_ENGINE";
 
-Outcome run(const std::string& arguments, const std::filesystem::path& folder) {
-    const char* program = std::getenv("REBOUND_VULKAN_ENGINE");
-    REQUIRE_MESSAGE(program != nullptr, "REBOUND_VULKAN_ENGINE has to name the program");
-    const lab::TemporaryFolder printed;
-    const std::string command = "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > '" +
-                                (printed / "output").string() + "' 2> '" + (printed / "errors").string() + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, lab::readText(printed / "output"),
-            lab::readText(printed / "errors")};
-}
+Outcome run(const std::string& arguments, const std::filesystem::path& folder) { return runNamed(variable, arguments, folder); }
 
 void checkRefused(const std::string& arguments, const std::string& part) {
-    const lab::TemporaryFolder folder;
-    const Outcome outcome = run(arguments, folder.path());
-    INFO(arguments, ": ", outcome.errors);
-    CHECK(outcome.exitCode == 2);
-    CHECK(outcome.output.empty());
-    CHECK(outcome.errors.starts_with("rebound_vulkan_engine: "));
-    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
-    CHECK(outcome.errors.find(part) != std::string::npos);
-    CHECK(folder.count() == 0);
+    checkNamedRefused(variable, "rebound_vulkan_engine", arguments, part);
 }
 
 } // namespace

@@ -6,13 +6,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// GpuLight in lights.hpp is its twin.
-struct Light {
-    vec4 position;  // .xyz [m], .w kind
-    vec4 direction; // .xyz the way light travels, or a surface's normal; .w the cosine of a spot's outer cone
-    vec4 intensity; // .rgb [W m^-2], [W sr^-1]; .w the cosine of a spot's inner cone, or a surface's area over pi [m^2]
-};
-const int directional = 0, point = 1, spot = 2, surface = 3, twoSidedSurface = 4;
+#include "light.glsl"
 
 layout(set = 1, binding = 0) uniform sampler2D depthImage;
 layout(set = 1, binding = 1) uniform sampler2D normalImage;
@@ -22,40 +16,9 @@ layout(set = 1, binding = 4) uniform sampler2D shadowMap;
 layout(set = 1, binding = 5, rgba16f) writeonly uniform image2D litImage;
 layout(set = 1, binding = 6, std430) readonly buffer Lights { Light lights[]; };
 
-// The share of 3 x 3 texels that the shadowed light reaches. The receiver is moved off its surface by the texels' width,
-// so that a surface does not shadow itself.
-float visibility(vec3 position, vec3 normal) {
-    float distance = frame.shadow.y > 0.0 ? (frame.shadowMatrix * vec4(position, 1.0)).w : 1.0;
-    vec4 clip = frame.shadowMatrix * vec4(position + normal * (3.0 * frame.shadow.x * distance), 1.0);
-    vec3 at = clip.xyz / clip.w;
-    ivec2 size = textureSize(shadowMap, 0);
-    ivec2 texel = ivec2(floor((at.xy * 0.5 + 0.5) * vec2(size)));
-    bool inside = clip.w > 0.0 && all(lessThan(abs(at.xy), vec2(1.0))) && at.z < 1.0;
-    if (!inside) return 1.0;
-    float lit = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            lit += texelFetch(shadowMap, clamp(texel + ivec2(x, y), ivec2(0), size - 1), 0).r >= at.z ? 1.0 : 0.0;
-    return lit / 9.0;
-}
+float storedDepth(float deviceDepth) { return deviceDepth; } // 0 to 1
 
-vec3 irradiance(Light light, vec3 position, vec3 normal) {
-    int kind = int(light.position.w);
-    if (kind == directional) return light.intensity.rgb * max(dot(normal, -light.direction.xyz), 0.0);
-    vec3 towards = light.position.xyz - position;
-    float squared = max(dot(towards, towards), 1e-12);
-    vec3 direction = towards * inversesqrt(squared);
-    float cosine = max(dot(normal, direction), 0.0), emitted = -dot(direction, light.direction.xyz);
-    if (kind == point) return light.intensity.rgb * (cosine / squared);
-    if (kind == spot) { // KHR_lights_punctual: the square of a ramp
-        float width = light.intensity.w - light.direction.w;
-        float ramp = width > 0.0 ? clamp((emitted - light.direction.w) / width, 0.0, 1.0) : step(light.direction.w, emitted);
-        return light.intensity.rgb * (cosine * ramp * ramp / squared);
-    }
-    // A part of a surface as a disc: bounded where it is near.
-    emitted = kind == surface ? max(emitted, 0.0) : abs(emitted);
-    return light.intensity.rgb * (cosine * emitted / (squared + light.intensity.w));
-}
+#include "direct_light.glsl"
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh's material; MaterialConstants in gpu_scene.hpp is its twin.
+// A mesh's material; MaterialConstants in engine/scene_data.hpp is its twin.
 layout(set = 1, binding = 0) uniform sampler2D baseColorTexture;
 layout(set = 1, binding = 1) uniform sampler2D emissionTexture;
 layout(push_constant) uniform Material {

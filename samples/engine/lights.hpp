@@ -6,7 +6,7 @@
 
 namespace rebound::engine {
 
-// Its twin is in shaders/light.comp, where the fields are explained.
+// Its twin is in shaders/light.glsl, where the fields are explained.
 struct GpuLight {
     glm::vec4 position, direction, intensity;
 };

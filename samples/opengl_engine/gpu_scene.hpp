@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// A scene on the GPU: one vertex and one index buffer, textures, lights.
+#pragma once
+
+#include "objects.hpp"
+
+#include "engine/lights.hpp"
+#include "engine/scene_data.hpp"
+
+namespace rebound::engine {
+
+class GpuScene {
+public:
+    static Result<GpuScene> create(const lab::Scene&);
+
+    // Draws everything with the program in use, which includes shaders/material.glsl.
+    void draw() const;
+
+    LightSetup lights;
+    Buffer lightBuffer;
+
+private:
+    void addMeshes(SceneData);
+    void addTextures(const lab::Scene&);
+
+    VertexArray vertexArray;
+    Buffer vertices, indices;
+    std::vector<SceneData::Part> parts;
+    std::vector<MaterialConstants> constants; // by material
+    struct MaterialTextures {
+        GLuint baseColor, emission;
+    };
+    std::vector<MaterialTextures> materialTextures; // by material
+    std::vector<Texture> textures;
+};
+
+} // namespace rebound::engine

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "renderer.hpp"
+#ifdef REBOUND_HAS_WINDOW
+#include "window.hpp"
+#endif
+
+#include "engine/command_line.hpp"
+#include "host/opengl_context.hpp"
+
+namespace rebound::engine {
+namespace {
+
+using host::OpenGLContext;
+
+Result<> renderToFile(const Options& o, const std::string& device, const lab::Scene& scene, const lab::CameraView& camera) {
+    auto renderer = Renderer::create(OpenGLContext::functionNamed, scene, o.preset);
+    if (!renderer) return renderer.error();
+    if (auto sized = (*renderer)->resize(o.size, camera); !sized) return sized;
+    for (int i = 0; i < o.frames.value_or(2); ++i)
+        if (auto rendered = (*renderer)->render(camera); !rendered) return rendered;
+    auto composed = (*renderer)->read((*renderer)->targets().composed, 3);
+    if (!composed) return composed.error();
+    if (auto fine = checkErrors("while frames were rendered"); !fine) return fine;
+    glFinish(); // timings never wait
+    const IndirectLight& indirect = (*renderer)->indirectLight();
+    return writePicture(o, scene.name, device, upsideDown(*composed), indirect.timings(), indirect.memoryUse());
+}
+
+Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& camera) {
+#ifdef REBOUND_HAS_WINDOW
+    if (o.window) return showWindow(o, scene, camera);
+#endif
+    auto context = OpenGLContext::create(host::OpenGLApi::desktop);
+    if (!context) return context.error();
+    const std::string device = context->description();
+    if (device.find(o.device) == std::string::npos)
+        return Error{ErrorCode::notFound, "no device whose name holds \"" + o.device + "\" was found; there is " + device};
+    if (auto done = renderToFile(o, device, scene, camera); !done) return done;
+    const std::vector<std::string> messages = context->takeMessages();
+    if (o.validation && !messages.empty()) return Error{ErrorCode::invalidData, "validation: " + messages.front()};
+    return {};
+}
+
+} // namespace
+} // namespace rebound::engine
+
+int main(int argc, char** argv) {
+    rebound::engine::ProgramText program;
+    program.name = "rebound_opengl_engine";
+    program.description = "A small deferred renderer on OpenGL with Rebound's indirect light.";
+    program.out = "opengl_engine.png";
+    program.device = "part of the device's name: fail if the system has chosen another";
+    program.validation = "fail on messages of OpenGL's debug output";
+#ifdef REBOUND_HAS_WINDOW
+    program.window = true;
+#endif
+    return rebound::engine::runProgram(argc, argv, program, rebound::engine::run);
+}
