@@ -41,6 +41,20 @@ lab::Image magnified(const Finding& f, float factor) {
     return image;
 }
 
+// Small pictures with each pixel several times, so that texels can be seen and captions read.
+lab::Picture enlarged(const lab::Picture& picture) {
+    constexpr int leastWidth = 280;
+    const int factor = (leastWidth + picture.width - 1) / picture.width;
+    lab::Picture result{picture.width * factor, picture.height * factor, {}};
+    result.rgb.reserve(size_t(result.width) * size_t(result.height) * 3);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x) {
+            const size_t from = (size_t(y / factor) * size_t(picture.width) + size_t(x / factor)) * 3;
+            result.rgb.insert(result.rgb.end(), &picture.rgb[from], &picture.rgb[from] + 3);
+        }
+    return result;
+}
+
 Json differenceToJson(const Difference& d) {
     Json json;
     // Not a number in JSON: an infinite difference is one of a number and no number.
@@ -132,12 +146,15 @@ Result<> writeConformPictures(const std::string& folder, const Report& report) {
         std::replace(name.begin(), name.end(), ' ', '_');
         files.push_back({name, [&f](const std::filesystem::path& path) {
                              const lab::ToneCurve curve = lab::automaticToneCurve(f.reference);
-                             return lab::writePng(
-                                 path, lab::contactSheet({{"scalar CPU", lab::toneMap(f.reference, curve)},
-                                                          {f.contender, lab::toneMap(f.value, curve)},
-                                                          {"difference", lab::toneMap(magnified(f, 1.0f), curve)},
-                                                          {"difference x 16", lab::toneMap(magnified(f, 16.0f), curve)}},
-                                                         2));
+                             const auto shown = [&](const lab::Image& image) {
+                                 return enlarged(lab::toneMap(image, curve));
+                             };
+                             return lab::writePng(path,
+                                                  lab::contactSheet({{"scalar CPU", shown(f.reference)},
+                                                                     {f.contender, shown(f.value)},
+                                                                     {"difference", shown(magnified(f, 1.0f))},
+                                                                     {"difference x 16", shown(magnified(f, 16.0f))}},
+                                                                    2));
                          }});
     }
     return files.empty() ? Result<>() : writeOutputFolder(folder, files);
