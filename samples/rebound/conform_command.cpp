@@ -126,7 +126,7 @@ Result<int> conform(const ConformOptions& options) {
 Command addConformCommand(CLI::App& program) {
     auto options = std::make_shared<ConformOptions>();
     CLI::App* app = program.add_subcommand("conform", "hold every backend against the scalar CPU, pass by pass");
-    app->add_option("--backends", options->backends,
+    app->add_option("--backends,--backend", options->backends,
                     "some of baseline, avx2, avx512, vulkan, opengl, with commas between them\n"
                     "(default: all that this machine has)")
         ->option_text("LIST");
