@@ -69,18 +69,18 @@ NamedCase hardCase(const std::string& name, Extent2D extent, const GBufferOption
 void sprinkleNonNumbers(GBuffer& g, Random& random) {
     constexpr float values[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                                 -std::numeric_limits<float>::infinity(), -1.0f};
-    for (lab::Image* image : {&g.depth, &g.normal, &g.radiance})
+    for (lab::Image* image : {&g.frame.depth, &g.frame.normal, &g.frame.radiance})
         for (float& value : image->data)
             if (random.chance(0.01)) value = values[random.integer(0, 3)];
 }
 
 void oneHotPixel(GBuffer& g, Random&) {
-    std::fill(g.radiance.data.begin(), g.radiance.data.end(), 0.0f);
+    std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f);
     const Extent2D e = g.settings.resolution;
-    std::fill_n(g.radiance.at(e.width / 2, e.height / 2), 3, runner::largestHalf);
+    std::fill_n(g.frame.radiance.at(e.width / 2, e.height / 2), 3, runner::largestHalf);
 }
 
-void makeBlack(GBuffer& g, Random&) { std::fill(g.radiance.data.begin(), g.radiance.data.end(), 0.0f); }
+void makeBlack(GBuffer& g, Random&) { std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f); }
 
 Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D extent) {
     auto scene = lab::loadScene(name);
@@ -94,10 +94,11 @@ Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D ext
     if (!frame) return frame.error();
     auto settings = screenIndirectPreset(preset, extent);
     if (!settings) return settings.error();
-    GBuffer g{*settings, lab::cameraMatrices(*view, extent), frame->depth, frame->normal,
-              lab::outgoingRadiance(*frame), frame->albedo, {}};
-    g.lit = g.radiance;
-    return caseOf(g, Precision::half);
+    const lab::Image outgoing = lab::outgoingRadiance(*frame);
+    return caseOf({*settings,
+                   {lab::cameraMatrices(*view, extent), frame->depth, frame->normal, outgoing, frame->albedo, outgoing,
+                    {}, {}}},
+                  Precision::half);
 }
 
 } // namespace

@@ -92,8 +92,9 @@ GBuffer makeGBuffer(const ScreenIndirectSettings& settings, const GBufferOptions
     const Extent2D extent = settings.resolution;
     const View view = viewOf(c, options.scale);
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), unitVector(random));
-    GBuffer g{settings, {}, lab::Image(extent, 1, emptyDepth(c)), lab::Image(extent, 3), {}, {}, {}};
-    g.radiance = g.albedo = g.lit = g.normal;
+    ScreenIndirectFrame<lab::Image> g;
+    g.depth = lab::Image(extent, 1, emptyDepth(c));
+    g.normal = g.radiance = g.albedo = g.lit = lab::Image(extent, 3);
     g.camera = {lab::viewOf(c, glm::mat4(turn)), lab::projectionOf(c, view.lens)};
     const glm::dmat3 toWorld = glm::inverse(glm::dmat3(turn));
     std::vector<Patch> patches;
@@ -111,25 +112,16 @@ GBuffer makeGBuffer(const ScreenIndirectSettings& settings, const GBufferOptions
                   lab::storedNormal(c, g.camera.view, glm::vec3(toWorld * patch.normal)));
             store(g.radiance, x, y, patch.radiance * random.between(0.5, 1.5));
         }
-    return g;
+    return {settings, std::move(g)};
 }
 
 Result<Case> caseOf(const GBuffer& g, runner::Precision precision) {
-    struct NoImage {};
-    ScreenIndirectFrame<NoImage> frame;
-    frame.camera = g.camera;
-    auto constants = screenIndirectInputs(g.settings, frame);
-    if (!constants) return constants.error();
+    auto inputs = screenIndirectInputs(g.settings, g.frame);
+    if (!inputs) return inputs.error();
     auto plan = planScreenIndirect(g.settings);
     if (!plan) return plan.error();
-    Case c{*std::move(plan), {}, precision, 0};
-    c.inputs.images = {{"depth", g.depth}, {"normal", g.normal}, {"radiance", g.radiance}};
-    if (g.settings.compose) {
-        c.inputs.images.push_back({"albedo", g.albedo});
-        c.inputs.images.push_back({"lit", g.lit});
-    }
-    c.inputs.constants = std::move(constants->constants);
-    for (float value : g.radiance.data)
+    Case c{*std::move(plan), *std::move(inputs), precision, 0};
+    for (float value : g.frame.radiance.data)
         if (std::isfinite(value)) c.largestRadiance = std::max(c.largestRadiance, value);
     return c;
 }

@@ -12,8 +12,7 @@ namespace rebound::conformance {
 
 struct GBuffer {
     ScreenIndirectSettings settings;
-    Camera camera;
-    lab::Image depth, normal, radiance, albedo, lit;
+    ScreenIndirectFrame<lab::Image> frame;
 };
 
 struct GBufferOptions {

@@ -22,32 +22,7 @@ size_t limitToRange(lab::Image& image) {
     return count;
 }
 
-// Stands for an image until a backend has made its own.
-struct NoImage {};
-
 } // namespace
-
-Result<runner::PlanInputs> planInputsOf(const lab::Frame& frame, const ScreenIndirectSettings& settings,
-                                        size_t* limitedPixels) {
-    ScreenIndirectFrame<NoImage> images;
-    images.camera = lab::cameraMatrices(frame.camera, settings.resolution);
-    auto named = screenIndirectInputs(settings, images);
-    if (!named)
-        return named.error();
-    lab::Image outgoing = lab::outgoingRadiance(frame);
-    const size_t limited = limitToRange(outgoing);
-    if (limitedPixels)
-        *limitedPixels = limited;
-    runner::PlanInputs inputs;
-    inputs.images = {{"depth", frame.depth}, {"normal", frame.normal}};
-    if (settings.compose) {
-        inputs.images.push_back({"albedo", frame.albedo});
-        inputs.images.push_back({"lit", outgoing});
-    }
-    inputs.images.push_back({"radiance", std::move(outgoing)});
-    inputs.constants = std::move(named->constants);
-    return inputs;
-}
 
 Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const ScreenIndirectSettings& requested,
                                             runner::Backend& backend, runner::Precision precision) {
@@ -58,14 +33,18 @@ Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const Scree
     auto plan = planOf(pipeline.settings_);
     if (!plan)
         return plan.error();
-    auto inputs = planInputsOf(frame, pipeline.settings_, &pipeline.limited);
+    pipeline.outgoing = lab::outgoingRadiance(frame);
+    pipeline.limited = limitToRange(pipeline.outgoing);
+    const Camera camera = lab::cameraMatrices(frame.camera, pipeline.settings_.resolution);
+    auto inputs = screenIndirectInputs(
+        pipeline.settings_, ScreenIndirectFrame<lab::Image>{camera, frame.depth, frame.normal, pipeline.outgoing,
+                                                            frame.albedo, pipeline.outgoing, {}, {}});
     if (!inputs)
         return inputs.error();
     auto prepared = backend.prepare(*plan, *inputs, {precision, false});
     if (!prepared)
         return prepared.error();
     pipeline.prepared = *std::move(prepared);
-    pipeline.outgoing = std::move(inputs->images.back().image);
     if (precision == runner::Precision::half)
         runner::roundTo(Format::rgba16f, pipeline.outgoing);
     return pipeline;

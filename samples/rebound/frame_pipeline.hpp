@@ -8,10 +8,6 @@
 
 namespace rebound::cli {
 
-// What planScreenIndirect() takes for a frame, apart from what the settings leave out. limitedPixels: how many were
-// brighter than the technique takes, and were limited to that; may be null.
-Result<runner::PlanInputs> planInputsOf(const lab::Frame&, const ScreenIndirectSettings&, size_t* limitedPixels = nullptr);
-
 class FramePipeline {
 public:
     // Hands the frame's images to the backend and compiles the plan. The frame has to be valid, and the backend outlives

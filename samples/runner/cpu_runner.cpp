@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runner/host_image.hpp"
-#include "runner/runner.hpp"
-#include "runner/texels.hpp"
-
-#include <chrono>
+#include "runner/inspection.hpp"
 
 namespace rebound::runner {
 namespace {
@@ -38,49 +35,26 @@ public:
     Result<double> run() override {
         const auto start = std::chrono::steady_clock::now();
         if (auto recorded = program.record(frame); !recorded) return recorded.error();
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return millisecondsSince(start);
     }
 
     const std::vector<PassTiming>& timings() const override { return program.timings(); }
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
     Result<lab::Image> read(const std::string& output) override {
-        const int index = program.plan().find(output);
-        if (index < 0 || program.plan().resources[size_t(index)].kind != ResourceKind::output)
-            return Error{ErrorCode::notFound, "the plan has no output named " + output};
-        return images[size_t(index)].toLabImage();
+        const auto index = findOutput(program.plan(), output);
+        if (!index) return index.error();
+        return images[size_t(*index)].toLabImage();
     }
 
     Result<Record> inspect(const Record* replacement) override {
-        Record record(program.plan().passes.size());
-        Result<> done;
-        program.onPass([&](int pass) {
-            if (done) done = inspectPass(pass, replacement, record);
-        });
-        auto recorded = program.record(frame);
-        program.onPass({});
-        if (!recorded) return recorded.error();
-        if (!done) return done.error();
-        return record;
+        return inspectPasses(
+            program, frame, replacement, [&](ResourceIndex r) { return contents(r); },
+            [&](ResourceIndex r, const lab::Image& image) { return replace(r, image); });
     }
 
 private:
     explicit CpuPlan(cpu::Program compiled) : program(std::move(compiled)) {}
-
-    Result<> inspectPass(int pass, const Record* replacement, Record& record) {
-        const Plan& plan = program.plan();
-        for (const PassBinding& b : plan.passes[size_t(pass)].bindings) {
-            if (b.access != Access::write) continue;
-            auto image = contents(b.resource);
-            if (!image) return image.error();
-            roundTo(plan.resources[size_t(b.resource)].format, *image);
-            std::vector<WrittenImage>& written = record[size_t(pass)];
-            const lab::Image& next = replacement ? (*replacement)[size_t(pass)][written.size()].image : *image;
-            if (auto replaced = replace(b.resource, next); !replaced) return replaced;
-            written.push_back({b.resource, *std::move(image)});
-        }
-        return {};
-    }
 
     Result<lab::Image> contents(ResourceIndex index) const {
         const Resource& r = program.plan().resources[size_t(index)];

@@ -3,10 +3,7 @@
 #include "host/opengl_context.hpp"
 #include "host/opengl_texture.hpp"
 #include "rebound/opengl/device.hpp"
-#include "runner/runner.hpp"
-#include "runner/texels.hpp"
-
-#include <chrono>
+#include "runner/inspection.hpp"
 
 namespace rebound::runner {
 namespace {
@@ -44,9 +41,9 @@ public:
     Result<double> run() override {
         const auto start = std::chrono::steady_clock::now();
         if (auto recorded = program.record(frame); !recorded) return recorded.error();
-        recording = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        recording = millisecondsSince(start);
         glFinish();
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return millisecondsSince(start);
     }
 
     const std::vector<PassTiming>& timings() const override { return program.timings(); }
@@ -54,23 +51,15 @@ public:
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
     Result<lab::Image> read(const std::string& output) override {
-        const int index = program.plan().find(output);
-        if (index < 0 || program.plan().resources[size_t(index)].kind != ResourceKind::output)
-            return Error{ErrorCode::notFound, "the plan has no output named " + output};
-        return contents(index);
+        const auto index = findOutput(program.plan(), output);
+        if (!index) return index.error();
+        return contents(*index);
     }
 
     Result<Record> inspect(const Record* replacement) override {
-        Record record(program.plan().passes.size());
-        Result<> done;
-        program.onPass([&](int pass) {
-            if (done) done = inspectPass(pass, replacement, record);
-        });
-        auto recorded = program.record(frame);
-        program.onPass({});
-        if (!recorded) return recorded.error();
-        if (!done) return done.error();
-        return record;
+        return inspectPasses(
+            program, frame, replacement, [&](ResourceIndex r) { return contents(r); },
+            [&](ResourceIndex r, const lab::Image& image) { return replace(r, image); });
     }
 
 private:
@@ -88,17 +77,10 @@ private:
         return host::readTexture(*texture, r.extent, r.channels);
     }
 
-    Result<> inspectPass(int pass, const Record* replacement, Record& record) {
-        for (const PassBinding& b : program.plan().passes[size_t(pass)].bindings) {
-            if (b.access != Access::write) continue;
-            auto image = contents(b.resource);
-            if (!image) return image.error();
-            std::vector<WrittenImage>& written = record[size_t(pass)];
-            if (replacement)
-                host::writeTexture(*textureOf(b.resource), program.plan().resources[size_t(b.resource)].format,
-                                   (*replacement)[size_t(pass)][written.size()].image);
-            written.push_back({b.resource, *std::move(image)});
-        }
+    Result<> replace(ResourceIndex index, const lab::Image& image) {
+        const auto texture = textureOf(index);
+        if (!texture) return texture.error();
+        host::writeTexture(*texture, program.plan().resources[size_t(index)].format, image);
         return {};
     }
 

@@ -33,7 +33,7 @@ Result<std::unique_ptr<Backend>> createBackend(const BackendChoice& choice) {
 }
 
 Result<const lab::Image*> findPicture(const Plan& plan, const PlanInputs& inputs, const Resource& r) {
-    for (const NamedPicture& picture : inputs.images) {
+    for (const NamedImage<lab::Image>& picture : inputs.images) {
         if (picture.name != r.name) continue;
         if (picture.image.extent() != r.extent)
             return invalidArgument("inputs: " + r.name + " has " + std::to_string(picture.image.width) + " x " +

@@ -17,15 +17,9 @@ namespace rebound::runner {
 // How a host keeps normals, colours and radiance; depth is always in single precision.
 enum class Precision { half, single };
 
-struct NamedPicture {
-    std::string name; // of an input of the plan
-    lab::Image image;
-};
-
-struct PlanInputs {
-    std::vector<NamedPicture> images;
-    std::vector<NamedConstants> constants;
-};
+// A frame as techniques fill it, such as screenIndirectInputs(). A backend makes the outputs' images itself: what stands
+// for them here is not looked at.
+using PlanInputs = FrameInputs<lab::Image>;
 
 // What a pass has written.
 struct WrittenImage {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/vulkan_image.hpp"
 #include "rebound/vulkan/device.hpp"
-#include "runner/runner.hpp"
-#include "runner/texels.hpp"
+#include "runner/inspection.hpp"
 
-#include <chrono>
 #include <cstring>
 
 namespace rebound::runner {
@@ -20,10 +18,6 @@ constexpr VkMemoryPropertyFlags hostMemory =
 Result<std::unique_ptr<VulkanBuffer>> stagingBuffer(const VulkanContext& context, size_t size) {
     return VulkanBuffer::create(context, std::max<size_t>(size, 4),
                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, hostMemory);
-}
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 class VulkanPlan : public PreparedPlan {
@@ -70,14 +64,13 @@ public:
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
     Result<lab::Image> read(const std::string& output) override {
-        const int index = program.plan().find(output);
-        if (index < 0 || program.plan().resources[size_t(index)].kind != ResourceKind::output)
-            return Error{ErrorCode::notFound, "the plan has no output named " + output};
-        const Resource& r = program.plan().resources[size_t(index)];
+        const auto index = findOutput(program.plan(), output);
+        if (!index) return index.error();
+        const Resource& r = program.plan().resources[size_t(*index)];
         auto staging = stagingBuffer(context, sizeOf(r));
         if (!staging) return staging.error();
         const auto done = context.run([&](VkCommandBuffer commands) -> Result<> {
-            host::recordDownload(commands, images[size_t(index)]->image, r.extent, (*staging)->buffer, 0);
+            host::recordDownload(commands, images[size_t(*index)]->image, r.extent, (*staging)->buffer, 0);
             host::recordFullBarrier(commands);
             return {};
         });

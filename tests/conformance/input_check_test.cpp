@@ -42,21 +42,19 @@ Subject cornell() {
 }
 
 InputStatistics measure(const Subject& subject, runner::Backend& backend) {
-    struct NoImage {};
-    InputCheckFrame<NoImage> images;
-    images.camera = subject.camera;
-    const auto constants = inputCheckInputs(subject.settings, images);
-    REQUIRE_MESSAGE(constants, (constants ? "" : constants.error().message));
+    const lab::Frame& f = subject.frame;
+    InputCheckFrame<lab::Image> frame;
+    frame.camera = subject.camera;
+    frame.depth = f.depth;
+    frame.normal = f.normal;
+    frame.albedo = f.albedo;
+    frame.radiance = lab::outgoingRadiance(f);
+    frame.emission = f.emission;
+    const auto inputs = inputCheckInputs(subject.settings, frame);
+    REQUIRE_MESSAGE(inputs, (inputs ? "" : inputs.error().message));
     const auto plan = planInputCheck(subject.settings);
     REQUIRE(plan);
-    const lab::Frame& f = subject.frame;
-    const runner::PlanInputs inputs{{{"depth", f.depth},
-                                     {"normal", f.normal},
-                                     {"albedo", f.albedo},
-                                     {"radiance", lab::outgoingRadiance(f)},
-                                     {"emission", f.emission}},
-                                    constants->constants};
-    auto prepared = backend.prepare(*plan, inputs, {runner::Precision::single, false});
+    auto prepared = backend.prepare(*plan, *inputs, {runner::Precision::single, false});
     REQUIRE_MESSAGE(prepared, (prepared ? "" : prepared.error().message));
     REQUIRE((*prepared)->run());
     const auto image = (*prepared)->read("statistics");

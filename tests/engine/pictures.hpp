@@ -49,16 +49,12 @@ struct Light {
 };
 
 // The plan on the scalar CPU, its images in half precision as the engines' are.
-inline Light onCpu(const ScreenIndirectSettings& settings, const Camera& camera, std::vector<runner::NamedPicture> images) {
-    struct NoImage {};
-    ScreenIndirectFrame<NoImage> frame;
-    frame.camera = camera;
-    auto inputs = require(screenIndirectInputs(settings, frame));
+inline Light onCpu(const ScreenIndirectSettings& settings, const ScreenIndirectFrame<lab::Image>& frame) {
+    const auto inputs = require(screenIndirectInputs(settings, frame));
     runner::BackendChoice choice;
     choice.isa = cpu::Isa::scalar;
     const auto backend = require(runner::createBackend(choice));
-    const auto prepared = require(
-        backend->prepare(require(planScreenIndirect(settings)), {std::move(images), inputs.constants}, {}));
+    const auto prepared = require(backend->prepare(require(planScreenIndirect(settings)), inputs, {}));
     require(prepared->run());
     return {require(prepared->read("indirect")), require(prepared->read("composed"))};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Frames in flight, resizes, motion vectors, lights.
+#include "../engine/lamp_scene.hpp"
 #include "engine_run.hpp"
 
 #include "vulkan_engine/frame_loop.hpp"
@@ -79,55 +80,12 @@ TEST_CASE("motion is none for a camera that rests, and leads to where a surface 
 TEST_CASE("a spot light, a point light, emission and an alpha mask, against closed forms") {
     const auto context = openContext();
     if (!context) return;
-    // A floor of 8 m x 8 m seen from above; half of it is masked away by its base colour's opacity.
-    lab::Scene scene;
-    lab::Material floor, hole;
-    floor.baseColor = {0.5f, 0.5f, 0.5f, 1.0f};
-    floor.emission = {0.25f, 0.0f, 0.0f};
-    hole.alphaMasked = true;
-    hole.baseColor.a = 0.2f;
-    scene.materials = {floor, hole};
-    const auto plane = [](int material, float height) {
-        lab::Mesh m;
-        m.material = material;
-        m.positions = {{-4, height, -4}, {4, height, -4}, {4, height, 4}, {-4, height, 4}};
-        m.normals.assign(4, {0, 1, 0});
-        m.indices = {0, 1, 2, 0, 2, 3};
-        return m;
-    };
-    scene.meshes = {plane(0, 0.0f), plane(1, 1.0f)};
-    scene.emissiveMaterialsLight = true;
-    lab::Light light;
-    light.type = lab::LightType::spot;
-    light.position = {0, 3, 0};
-    light.intensity = glm::vec3(9.0f);
-    light.outerCone = light.innerCone = 0.5f;
-    scene.lights = {light};
-    light.type = lab::LightType::point;
-    light.intensity = {0, 0, 18.0f};
-    scene.lights.push_back(light);
-    lab::CameraView view;
-    view.position = {0, 6, 0};
-    view.target = {0, 0, 0};
-    view.up = {0, 0, -1};
-    const Extent2D size{65, 65};
+    const lab::Scene scene = lampScene();
+    const lab::CameraView& view = scene.cameras.at(0);
     {
-        const auto renderer = rendererFor(*context, scene, size, view);
+        const auto renderer = rendererFor(*context, scene, {65, 65}, view);
         renderFrame(*context, *renderer, 0, view);
-        const lab::Image lit = require(renderer->read(renderer->targets().lit, 3));
-        const float pi = std::numbers::pi_v<float>;
-        // Straight below: intensity over squared height; the mask above neither is seen nor casts a shadow.
-        const float* middle = lit.at(32, 32);
-        CHECK(middle[1] == doctest::Approx(0.5f * 1.0f / pi).epsilon(2e-3)); // a half
-        CHECK(middle[0] == doctest::Approx(0.25f + 0.5f * 1.0f / pi).epsilon(2e-3));
-        CHECK(middle[2] == doctest::Approx(0.5f * 3.0f / pi).epsilon(2e-3));
-        // At 2 m to the side the spot's hard edge, at 3 tan(0.5) = 1.64 m, has been passed; the point light reaches on:
-        // the pixel's centre lies 20 pixels of 6 m tan(0.5) / 32.5 off the middle.
-        const float* side = lit.at(52, 32);
-        const float distance = 20.0f * 6.0f * std::tan(0.5f) / 32.5f, squared = 9.0f + distance * distance;
-        CHECK(distance > 3.0f * std::tan(0.5f));
-        CHECK(side[1] == 0.0f);
-        CHECK(side[2] == doctest::Approx(0.5f / pi * 18.0f * 3.0f / std::pow(squared, 1.5f)).epsilon(2e-3));
+        checkLampLight(require(renderer->read(renderer->targets().lit, 3)));
     }
     checkSilence(*context);
 }
