@@ -13,6 +13,13 @@
 
 namespace rebound::host {
 
+Result<> requireDevice(const std::string& description, const std::string& part) {
+    if (description.find(part) != std::string::npos)
+        return {};
+    return Error{ErrorCode::notFound,
+                 "no device whose name holds \"" + part + "\" was found; there is " + description};
+}
+
 struct OpenGLContext::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;

@@ -15,6 +15,9 @@ enum class OpenGLApi {
     es,      // OpenGL ES 3.1 or later
 };
 
+// Fails where a context's description does not hold that part: the system chooses the device, not the program.
+Result<> requireDevice(const std::string& description, const std::string& part);
+
 // One context, current on one thread at a time. It has debug output, which is collected. Which GPU it is on
 // is the system's choice; LIBGL_ALWAYS_SOFTWARE=1 makes Mesa render on the CPU.
 class OpenGLContext {

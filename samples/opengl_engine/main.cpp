@@ -33,8 +33,7 @@ Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& c
     auto context = OpenGLContext::create(host::OpenGLApi::desktop);
     if (!context) return context.error();
     const std::string device = context->description();
-    if (device.find(o.device) == std::string::npos)
-        return Error{ErrorCode::notFound, "no device whose name holds \"" + o.device + "\" was found; there is " + device};
+    if (auto found = host::requireDevice(device, o.device); !found) return found;
     if (auto done = renderToFile(o, device, scene, camera); !done) return done;
     const std::vector<std::string> messages = context->takeMessages();
     if (o.validation && !messages.empty()) return Error{ErrorCode::invalidData, "validation: " + messages.front()};

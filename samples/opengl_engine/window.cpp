@@ -3,6 +3,8 @@
 
 #include "renderer.hpp"
 
+#include "engine/orbit.hpp"
+#include "host/opengl_context.hpp"
 #include "lab/image_files.hpp"
 
 #include "present_frag.h"
@@ -10,52 +12,9 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <cmath>
 
 namespace rebound::engine {
 namespace {
-
-Error windowError(const char* what) {
-    const char* reason = nullptr;
-    glfwGetError(&reason);
-    return {ErrorCode::unsupported, std::string("--window: ") + what + (reason ? std::string(": ") + reason : "")};
-}
-
-// Turns the camera around its target.
-struct Orbit {
-    lab::CameraView view;
-    double lastX = 0.0, lastY = 0.0;
-
-    void turn(double right, double up) { // [rad]
-        const glm::vec3 arm = view.position - view.target;
-        const glm::vec3 axis = glm::normalize(glm::cross(view.up, arm));
-        const glm::mat4 turned = glm::rotate(glm::rotate(glm::mat4(1.0f), float(-right), view.up), float(-up), axis);
-        const glm::vec3 next = glm::mat3(turned) * arm;
-        // Not over the poles, where up is along the view.
-        if (glm::length(glm::cross(glm::normalize(next), glm::normalize(view.up))) > 0.05f)
-            view.position = view.target + next;
-    }
-
-    void listen(GLFWwindow* window) {
-        glfwSetWindowUserPointer(window, this);
-        glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-            Orbit& self = *static_cast<Orbit*>(glfwGetWindowUserPointer(w));
-            constexpr double radiansPerPixel = 0.005;
-            if (glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
-                self.turn((x - self.lastX) * radiansPerPixel, (y - self.lastY) * radiansPerPixel);
-            self.lastX = x;
-            self.lastY = y;
-        });
-        glfwSetScrollCallback(window, [](GLFWwindow* w, double, double notches) {
-            lab::CameraView& v = static_cast<Orbit*>(glfwGetWindowUserPointer(w))->view;
-            const float factor = float(std::pow(0.9, notches));
-            v.position = v.target + (v.position - v.target) * factor;
-            v.orthographicHeight *= factor;
-        });
-    }
-};
 
 void APIENTRY collect(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text, const void* user) {
     if (severity != GL_DEBUG_SEVERITY_NOTIFICATION)
@@ -138,8 +97,7 @@ Result<> showWindow(const Options& o, const lab::Scene& scene, const lab::Camera
     glfwMakeContextCurrent(window);
     const GLubyte* text = glGetString(GL_RENDERER);
     const std::string device = text ? reinterpret_cast<const char*>(text) : "";
-    if (device.find(o.device) == std::string::npos)
-        return Error{ErrorCode::notFound, "no device whose name holds \"" + o.device + "\" was found; there is " + device};
+    if (auto found = host::requireDevice(device, o.device); !found) return found;
     std::vector<std::string> messages;
     if (o.validation) {
         glEnable(GL_DEBUG_OUTPUT);

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 namespace rebound::cli {
 
@@ -94,34 +93,27 @@ struct Run {
     Measurement measurement;
 };
 
-// Two columns a run. The passes are those of one plan, so that every run has the same.
+// Two columns a run. The passes are those of one plan, but a backend that cannot tell has none.
 std::string measurementTable(const std::vector<Run>& runs) {
     std::vector<std::string> headings = {"pass"};
-    std::vector<TableRow> rows(runs[0].measurement.passes.size() + 1);
-    rows.back().first = "frame";
+    std::vector<TableRow> rows;
+    for (const Run& run : runs)
+        for (size_t i = rows.size(); i < run.measurement.passes.size(); ++i)
+            rows.push_back({run.measurement.passes[i].name, {}});
+    rows.push_back({"frame", {}});
     for (const Run& run : runs) {
         const std::string prefix = runs.size() > 1 ? run.backend.backend + " " : "";
         headings.push_back(prefix + "median [ms]");
         headings.push_back(prefix + "minimum [ms]");
-        for (size_t i = 0; i < rows.size(); ++i) {
-            const bool isPass = i + 1 < rows.size();
-            const bool isMeasured = !isPass || i < run.measurement.passes.size();
-            const Series* series = !isPass ? &run.measurement.frame : isMeasured ? &run.measurement.passes[i] : nullptr;
-            if (isPass && series)
-                rows[i].first = series->name;
-            rows[i].second.push_back(series ? series->median() : NAN);
-            rows[i].second.push_back(series ? series->minimum() : NAN);
-        }
+        const std::vector<Series>& passes = run.measurement.passes;
+        for (size_t i = 0; i + 1 < rows.size(); ++i)
+            for (const double value : {i < passes.size() ? passes[i].median() : NAN,
+                                       i < passes.size() ? passes[i].minimum() : NAN})
+                rows[i].second.push_back(value);
+        rows.back().second.push_back(run.measurement.frame.median());
+        rows.back().second.push_back(run.measurement.frame.minimum());
     }
     return toTable(headings, rows);
-}
-
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');)
-        parts.push_back(part);
-    return parts;
 }
 
 Result<Run> benchOn(Preparation& preparation, const SourcedFrame& source, const ScreenIndirectSettings& settings,
@@ -162,7 +154,7 @@ void print(const SourcedFrame& source, const std::vector<Run>& runs, const Bench
 
 Result<> bench(const BenchOptions& options) {
     std::vector<Preparation> preparations;
-    for (const std::string& backend : split(options.device.backend)) {
+    for (const std::string& backend : splitList(options.device.backend)) {
         DeviceChoice choice = options.device;
         choice.backend = backend;
         if (backend == "cpu" && options.device.backend != "cpu")

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "conform_report.hpp"
 #include "conformance/conformance.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 
 #include <CLI/CLI.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 namespace rebound::cli {
 
@@ -25,14 +25,6 @@ struct ConformOptions {
     bool json = false;
     std::string out;
 };
-
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');)
-        parts.push_back(part);
-    return parts;
-}
 
 // What can be held against the scalar CPU: its other instruction sets, and the GPU backends.
 std::vector<std::string> contenderNames() {
@@ -70,7 +62,7 @@ struct Contenders {
 // Those that were asked for have to be there; of all others, those that are.
 Result<Contenders> createContenders(const ConformOptions& options) {
     const std::vector<std::string> known = contenderNames();
-    const std::vector<std::string> wanted = options.backends.empty() ? known : split(options.backends);
+    const std::vector<std::string> wanted = options.backends.empty() ? known : splitList(options.backends);
     Contenders contenders;
     for (const std::string& name : wanted) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {

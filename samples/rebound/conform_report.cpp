@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace rebound::cli {
 
@@ -16,13 +15,6 @@ using conformance::Contender;
 using conformance::Difference;
 using conformance::Finding;
 using conformance::Report;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    char text[512];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
 
 // "screen_indirect/gather" as "gather": one technique's kernels share a table.
 std::string shortName(const std::string& kernel) {

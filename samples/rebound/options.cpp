@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -106,6 +107,14 @@ const char* nameOf(FormFactor value) {
 }
 const char* nameOf(runner::Precision value) {
     return nameIn<runner::Precision>(precisionNames, value);
+}
+
+std::vector<std::string> splitList(const std::string& text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, ',');)
+        parts.push_back(part);
+    return parts;
 }
 
 Result<Extent2D> parseSize(const std::string& text) {

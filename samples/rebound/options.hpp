@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -47,6 +48,9 @@ void addTechniqueOptions(CLI::App&, TechniqueOptions&);
 void addDeviceOptions(CLI::App&, DeviceChoice&);
 // To be called after the three above: those that say what a scene looks like contradict --frame.
 void excludeSceneOptionsFromFrames(CLI::App&);
+
+// What stands between commas.
+std::vector<std::string> splitList(const std::string&);
 
 // WIDTHxHEIGHT, each 1 to maximumExtent.
 Result<Extent2D> parseSize(const std::string&);

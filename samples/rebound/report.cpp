@@ -2,18 +2,10 @@
 #include "report.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace rebound::cli {
 
 namespace {
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
 
 std::string plural(int count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,14 @@ namespace rebound::cli {
 
 // Keeps the order in which keys were added.
 using Json = nlohmann::ordered_json;
+
+// As printf has it, up to 511 characters.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[512];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
 
 // What was run on what, in two lines.
 std::string describeRun(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,

@@ -120,9 +120,8 @@ Result<std::unique_ptr<Backend>> createOpenGLBackend(const BackendChoice& choice
     // GPUs of phones, and drivers that stop short of OpenGL 4.3, may have ES 3.1.
     if (!context) context = OpenGLContext::create(host::OpenGLApi::es);
     if (!context) return Error{context.error().code, "OpenGL: " + context.error().message};
-    if (context->description().find(choice.device) == std::string::npos)
-        return Error{ErrorCode::notFound, "OpenGL: no device whose name holds \"" + choice.device + "\" was found; there is " +
-                                              context->description()};
+    if (auto found = host::requireDevice(context->description(), choice.device); !found)
+        return Error{found.error().code, "OpenGL: " + found.error().message};
     opengl::DeviceOptions options;
     options.loader = OpenGLContext::functionNamed;
     options.timings = true;

@@ -10,19 +10,9 @@
 #define GLFW_INCLUDE_NONE
 #include <vulkan/vulkan.h>
 #include <GLFW/glfw3.h>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace rebound::engine {
 namespace {
-
-Error windowError(const char* what) {
-    const char* reason = nullptr;
-    glfwGetError(&reason);
-    return {ErrorCode::unsupported, std::string("--window: ") + what + (reason ? std::string(": ") + reason : "")};
-}
 
 struct Surface {
     VkInstance instance = VK_NULL_HANDLE;
@@ -68,37 +58,11 @@ Extent2D Window::pixels() const {
     return size;
 }
 
-void Window::turn(double right, double up) {
-    const glm::vec3 arm = view.position - view.target;
-    const glm::vec3 axis = glm::normalize(glm::cross(view.up, arm));
-    const glm::mat4 turned = glm::rotate(glm::rotate(glm::mat4(1.0f), float(-right), view.up), float(-up), axis);
-    const glm::vec3 next = glm::mat3(turned) * arm;
-    // Not over the poles, where up is along the view.
-    if (glm::length(glm::cross(glm::normalize(next), glm::normalize(view.up))) > 0.05f) view.position = view.target + next;
-}
-
-void Window::listen() {
-    glfwSetWindowUserPointer(handle, this);
-    glfwSetCursorPosCallback(handle, [](GLFWwindow* w, double x, double y) {
-        Window& self = *static_cast<Window*>(glfwGetWindowUserPointer(w));
-        constexpr double radiansPerPixel = 0.005;
-        if (glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
-            self.turn((x - self.lastX) * radiansPerPixel, (y - self.lastY) * radiansPerPixel);
-        self.lastX = x;
-        self.lastY = y;
-    });
-    glfwSetScrollCallback(handle, [](GLFWwindow* w, double, double notches) {
-        lab::CameraView& v = static_cast<Window*>(glfwGetWindowUserPointer(w))->view;
-        const float factor = float(std::pow(0.9, notches));
-        v.position = v.target + (v.position - v.target) * factor;
-        v.orthographicHeight *= factor;
-    });
-}
-
 Result<> Window::show(const Options& o, const host::VulkanContext& context, const lab::Scene& scene,
                       const lab::CameraView& start) {
-    view = start;
-    listen();
+    orbit.view = start;
+    orbit.listen(handle);
+    const lab::CameraView& view = orbit.view;
     Surface surface{context.instance()};
     if (glfwCreateWindowSurface(context.instance(), handle, nullptr, &surface.handle) != VK_SUCCESS)
         return windowError("the window cannot show what Vulkan draws");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/command_line.hpp"
+#include "engine/orbit.hpp"
 #include "host/vulkan_context.hpp"
 #include "lab/scene.hpp"
 
@@ -26,12 +27,9 @@ public:
 
 private:
     Window() = default;
-    void turn(double right, double up); // around the target [rad]
-    void listen();
-    Extent2D pixels() const;            // 0 x 0 while it is minimised
+    Extent2D pixels() const; // 0 x 0 while it is minimised
     GLFWwindow* handle = nullptr;
-    lab::CameraView view;
-    double lastX = 0.0, lastY = 0.0;
+    Orbit orbit;
 };
 
 } // namespace rebound::engine
