@@ -16,8 +16,8 @@ if(WAY STREQUAL "find_package")
     run(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${prefix})
     list(APPEND options -D CMAKE_PREFIX_PATH=${prefix})
 else()
-    # One instruction set is enough to see that the build works.
-    list(APPEND options -D REBOUND_SOURCE=${REBOUND} -D REBOUND_ISAS=baseline)
+    # One instruction set, hardly optimised, is enough to see that the build works.
+    list(APPEND options -D REBOUND_SOURCE=${REBOUND} -D REBOUND_ISAS=baseline -D REBOUND_KERNEL_OPTIMIZATION=-O1)
 endif()
 
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${CONSUMER} -B ${WORK}/${WAY} ${options})
