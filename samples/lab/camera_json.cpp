@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace rebound::lab {
@@ -89,6 +91,22 @@ Result<CameraView> cameraFromJson(const Json& object, const std::string& context
     if (auto valid = validate(camera); !valid)
         return Error{ErrorCode::invalidData, context + ": " + valid.error().message};
     return camera;
+}
+
+nlohmann::json cameraToJson(const CameraView& camera) {
+    const auto vector = [](glm::vec3 v) { return Json::array({v.x, v.y, v.z}); };
+    Json json{{"name", camera.name},
+              {"position", vector(camera.position)},
+              {"target", vector(camera.target)},
+              {"up", vector(camera.up)},
+              {"near", camera.nearPlane},
+              // JSON has no infinity.
+              {"far", std::min(camera.farPlane, std::numeric_limits<float>::max())}};
+    if (camera.orthographic)
+        json["orthographic_height"] = camera.orthographicHeight;
+    else
+        json["vfov_degrees"] = glm::degrees(camera.verticalFieldOfView);
+    return json;
 }
 
 } // namespace rebound::lab

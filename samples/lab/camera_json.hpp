@@ -15,4 +15,7 @@ namespace rebound::lab {
 // CameraView&). Every error begins with `context`, which names the file and the place in it.
 Result<CameraView> cameraFromJson(const nlohmann::json&, const std::string& context);
 
+// The camera in those keys.
+nlohmann::json cameraToJson(const CameraView&);
+
 } // namespace rebound::lab

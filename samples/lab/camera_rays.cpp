@@ -69,4 +69,17 @@ CameraRay CameraRays::throughPixel(int x, int y) const {
     return {eye, forward + offset};
 }
 
+std::optional<CameraRays::Projection> CameraRays::project(glm::dvec3 point) const {
+    const glm::dvec3 towards = point - eye;
+    const double depth = glm::dot(towards, forward);
+    if (!(depth > 0.0))
+        return std::nullopt;
+    const double scale = orthographic ? 1.0 : 1.0 / depth;
+    const double x = glm::dot(towards, right) / glm::dot(right, right) * scale;
+    const double y = glm::dot(towards, up) / glm::dot(up, up) * scale;
+    if (!(std::abs(x) <= 1.0 && std::abs(y) <= 1.0))
+        return std::nullopt;
+    return Projection{orthographic ? eye + x * right + y * up : eye, depth};
+}
+
 } // namespace rebound::lab

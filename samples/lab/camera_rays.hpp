@@ -5,6 +5,8 @@
 #include "lab/scene.hpp"
 #include "rebound/extent.hpp"
 
+#include <optional>
+
 namespace rebound::lab {
 
 // A view direction and an up vector that vanish or agree, angles and planes out of range, and values that are
@@ -24,6 +26,14 @@ public:
 
     // Through the centre of pixel (x, y), row 0 on top.
     CameraRay throughPixel(int x, int y) const;
+
+    // Where a ray from the camera to a point starts, and the point's depth; nothing where the point is beside the view
+    // or behind the camera.
+    struct Projection {
+        glm::dvec3 origin;
+        double depth;
+    };
+    std::optional<Projection> project(glm::dvec3 point) const;
 
 private:
     Extent2D extent;

@@ -288,6 +288,10 @@ glm::vec3 EmbreeScene::positionAt(const SurfaceLocation& at) const {
     return interpolate(mesh.positions, corners(mesh, at.triangle), at);
 }
 
+const Material& EmbreeScene::materialAt(const SurfaceLocation& at) const {
+    return *state->lookups[at.mesh].material;
+}
+
 bool EmbreeScene::isHole(const SurfaceLocation& at) const {
     return state->lookups[at.mesh].isHole(at);
 }

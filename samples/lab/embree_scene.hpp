@@ -83,6 +83,8 @@ public:
 
     glm::vec3 positionAt(const SurfaceLocation&) const;
 
+    const Material& materialAt(const SurfaceLocation&) const;
+
     // Whether a location falls into a cut-out.
     bool isHole(const SurfaceLocation&) const;
 

@@ -56,4 +56,8 @@ glm::vec2 sobolPoint(uint32_t index, uint32_t seed) {
             toUnitInterval(scramble(secondDimension(index), hashBits(seed + 1u)))};
 }
 
+glm::vec2 shuffledSobolPoint(uint32_t index, uint32_t seed) {
+    return sobolPoint(scramble(index, hashBits(seed + 2u)), seed);
+}
+
 } // namespace rebound::lab

@@ -19,4 +19,8 @@ uint32_t hashBits(uint32_t a, uint32_t b);
 // Stochastic Transparency; Burley: Practical Hash-based Owen Scrambling.
 glm::vec2 sobolPoint(uint32_t index, uint32_t seed);
 
+// The same points in an order that the seed shuffles, such that the first 2^k are still a set with that property:
+// sequences of different seeds can be taken together as further dimensions.
+glm::vec2 shuffledSobolPoint(uint32_t index, uint32_t seed);
+
 } // namespace rebound::lab

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/image_files.hpp"
 
+#include "lab/luminance.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +21,8 @@ float srgbToLinear(float encoded) {
 }
 
 // Rec. 709 luminance; of an image of one or two channels, the first.
-float luminance(const float* pixel, int channels) {
-    return channels < 3 ? pixel[0] : 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2];
+float brightness(const float* pixel, int channels) {
+    return channels < 3 ? pixel[0] : luminance({pixel[0], pixel[1], pixel[2]});
 }
 
 unsigned char encode(float radiance, float exposure) {
@@ -49,7 +51,7 @@ ToneCurve automaticToneCurve(const Image& image) {
     luminances.reserve(image.data.size() / size_t(std::max(image.channels, 1)));
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
-            if (const float l = luminance(image.at(x, y), image.channels); l > 0.0f && std::isfinite(l))
+            if (const float l = brightness(image.at(x, y), image.channels); l > 0.0f && std::isfinite(l))
                 luminances.push_back(l);
     if (luminances.empty())
         return {};

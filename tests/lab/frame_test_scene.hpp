@@ -32,6 +32,32 @@ inline Mesh& addQuad(Scene& scene, glm::vec3 centre, glm::vec3 a, glm::vec3 b, i
     return scene.meshes.back();
 }
 
+// A closed cube about the origin, from -1 to 1, whose six walls face inwards.
+inline void addBox(Scene& scene, int material = 0) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+            glm::vec3 centre(0.0f), a(0.0f), b(0.0f);
+            centre[axis] = side;
+            a[(axis + 1) % 3] = -side;
+            b[(axis + 2) % 3] = 1.0f;
+            addQuad(scene, centre, a, b, material);
+        }
+}
+
+// Sees a square patch of a plane, seen along `direction` from `distance` before its centre, and nothing else.
+inline CameraView patchCamera(glm::vec3 centre, glm::vec3 direction, float distance, float side) {
+    CameraView camera;
+    camera.name = "patch";
+    camera.position = centre - direction * distance;
+    camera.target = centre;
+    camera.up = std::abs(direction.y) > 0.5f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+    camera.orthographic = true;
+    camera.orthographicHeight = side;
+    camera.nearPlane = distance * 1e-3f;
+    camera.farPlane = distance * 10.0f;
+    return camera;
+}
+
 // A horizontal floor at y = 0 that faces up.
 inline Scene floorScene(float halfSize = 100.0f, glm::vec3 albedo = glm::vec3(0.5f)) {
     Scene scene;
