@@ -6,25 +6,11 @@
 
 namespace rebound::cli {
 
-namespace {
-
-constexpr const char* sourceGroup = "Scene";
-constexpr const char* techniqueGroup = "Screen-space indirect light";
-constexpr const char* deviceGroup = "Device";
-
-} // namespace
-
-void addSourceOptions(CLI::App& app, SourceOptions& o) {
+void addSceneOptions(CLI::App& app, SourceOptions& o) {
     app.add_option("scene", o.scene,
                    "a glTF 2.0 file (.gltf, .glb), or builtin:atrium or builtin:cornell\n"
                    "(default: builtin:atrium)")
         ->option_text("SCENE")
-        ->group(sourceGroup);
-    app.add_option("--frame", o.frame,
-                   "instead of a scene, a folder that holds depth.exr, normal.exr,\n"
-                   "albedo.exr, direct.exr, emission.exr (optional) and meta.json, whose\n"
-                   "\"camera\" took them; its size is the pictures' size")
-        ->option_text("DIR")
         ->group(sourceGroup);
     app.add_option("--view", o.view,
                    "a view file: cameras, lights, environment, animation\n"
@@ -41,6 +27,16 @@ void addSourceOptions(CLI::App& app, SourceOptions& o) {
                    "moment of that clip [s]; past its end it holds the last pose\n"
                    "(default: the view file's, or else the rest pose; 0 with --animation)")
         ->option_text("SECONDS")
+        ->group(sourceGroup);
+}
+
+void addSourceOptions(CLI::App& app, SourceOptions& o) {
+    addSceneOptions(app, o);
+    app.add_option("--frame", o.frame,
+                   "instead of a scene, a folder that holds depth.exr, normal.exr,\n"
+                   "albedo.exr, direct.exr, emission.exr (optional) and meta.json, whose\n"
+                   "\"camera\" took them; its size is the pictures' size")
+        ->option_text("DIR")
         ->group(sourceGroup);
     app.add_option("--light-samples", o.lightSamples,
                    "shadow rays a pixel for each area light, for emissive surfaces and for\n"

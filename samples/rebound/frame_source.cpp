@@ -26,22 +26,29 @@ Result<lab::Scene> loadSceneOf(const SourceOptions& options) {
 }
 
 Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, int threads) {
-    auto scene = loadSceneOf(options);
-    if (!scene)
-        return scene.error();
-    auto camera = lab::findCamera(*scene, options.camera);
-    if (!camera)
-        return camera.error();
+    const auto view = loadView(options);
+    if (!view)
+        return view.error();
     ProgressLine line("rendering the G-buffer and direct light");
     lab::FrameOptions frameOptions;
     frameOptions.extent = extent;
     frameOptions.lightSamples = options.lightSamples;
     frameOptions.threads = threads;
     frameOptions.progress = [&line](double share) { line.update(share); };
-    return lab::renderFrame(*scene, *camera, frameOptions);
+    return lab::renderFrame(view->scene, view->camera, frameOptions);
 }
 
 } // namespace
+
+Result<SourcedView> loadView(const SourceOptions& options) {
+    auto scene = loadSceneOf(options);
+    if (!scene)
+        return scene.error();
+    auto camera = lab::findCamera(*scene, options.camera);
+    if (!camera)
+        return camera.error();
+    return SourcedView{*std::move(scene), *std::move(camera)};
+}
 
 Result<SourcedFrame> obtainFrame(const SourceOptions& options, Extent2D extent, int threads) {
     SourcedFrame source;

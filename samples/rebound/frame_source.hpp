@@ -13,6 +13,14 @@ struct SourcedFrame {
     bool isStored = false;
 };
 
+struct SourcedView {
+    lab::Scene scene;
+    lab::CameraView camera;
+};
+
+// The scene and camera that the options name; precondition: they name no stored frame.
+Result<SourcedView> loadView(const SourceOptions&);
+
 // Scenes are rendered at the given size, which frames in folders ignore. The result has passed checkFrame.
 Result<SourcedFrame> obtainFrame(const SourceOptions&, Extent2D, int threads);
 

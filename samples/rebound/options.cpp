@@ -2,10 +2,10 @@
 #include "options.hpp"
 
 #include "memory_check.hpp"
+#include "named_values.hpp"
 
 #include <array>
 #include <charconv>
-#include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -13,9 +13,6 @@
 namespace rebound::cli {
 
 namespace {
-
-template <class T>
-using Names = std::span<const std::pair<const char*, T>>;
 
 constexpr std::pair<const char*, StartResolution> startNames[] = {
     {"full", StartResolution::full}, {"half", StartResolution::half}, {"quarter", StartResolution::quarter}};
@@ -25,29 +22,6 @@ constexpr std::pair<const char*, FormFactor> formFactorNames[] = {{"disc", FormF
                                                                   {"point", FormFactor::pointToPoint}};
 constexpr std::pair<const char*, runner::Precision> precisionNames[] = {{"half", runner::Precision::half},
                                                                {"float", runner::Precision::single}};
-
-Error unexpected(const std::string& option, const std::string& value, const std::string& expected) {
-    return invalidArgument(option + " is \"" + value + "\"; " + expected + " was expected");
-}
-
-template <class T>
-Result<T> valueNamed(const char* option, const std::string& wanted, Names<T> names) {
-    std::string known;
-    for (const auto& [name, value] : names) {
-        if (wanted == name)
-            return value;
-        known += (known.empty() ? "" : ", ") + std::string(name);
-    }
-    return unexpected(option, wanted, "one of " + known);
-}
-
-template <class T>
-const char* nameIn(Names<T> names, T wanted) {
-    for (const auto& [name, value] : names)
-        if (value == wanted)
-            return name;
-    return "?";
-}
 
 // A whole text as one number, without the sign and blanks that other parsers let pass.
 template <class T>

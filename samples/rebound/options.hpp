@@ -43,6 +43,15 @@ struct DeviceChoice {
     std::string precision = "half";
 };
 
+// Headings of --help.
+inline constexpr const char* sourceGroup = "Scene";
+inline constexpr const char* techniqueGroup = "Screen-space indirect light";
+inline constexpr const char* referenceGroup = "Path-traced reference";
+inline constexpr const char* deviceGroup = "Device";
+
+// A scene and a camera of it.
+void addSceneOptions(CLI::App&, SourceOptions&);
+// The same, or a stored frame.
 void addSourceOptions(CLI::App&, SourceOptions&);
 void addTechniqueOptions(CLI::App&, TechniqueOptions&);
 void addDeviceOptions(CLI::App&, DeviceChoice&);

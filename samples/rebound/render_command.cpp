@@ -4,9 +4,11 @@
 #include "frame_source.hpp"
 #include "lab/image_files.hpp"
 #include "lab/output_file.hpp"
+#include "named_values.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
+#include "reference_render.hpp"
 #include "report.hpp"
 #include "runner/texels.hpp"
 
@@ -22,9 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* screenIndirect = "screen_indirect";
+constexpr const char* reference = "reference";
+
 struct RenderOptions {
     SourceOptions source;
+    std::string name = screenIndirect;
     TechniqueOptions technique;
+    ReferenceOptions reference;
     DeviceChoice device;
     std::string out = "out";
 };
@@ -135,13 +142,43 @@ Result<> render(const RenderOptions& options) {
     return {};
 }
 
+// Options that the chosen technique would ignore are mistakes.
+Result<> checkOptions(const CLI::App& app, const RenderOptions& options) {
+    if (options.name != screenIndirect && options.name != reference)
+        return unexpected("--technique", options.name, std::string("one of ") + screenIndirect + ", " + reference);
+    const bool traced = options.name == reference;
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string name = "--" + (option->get_lnames().empty() ? "" : option->get_lnames()[0]);
+        const bool ignored = traced ? option->get_group() == techniqueGroup || option->get_group() == deviceGroup ||
+                                          name == "--frame" || name == "--light-samples"
+                                    : option->get_group() == referenceGroup;
+        if (option->count() > 0 && ignored && name != "--size" && name != "--threads")
+            return invalidArgument(name + " was given, which --technique " + options.name + " does not use");
+    }
+    return {};
+}
+
+Result<> renderChosen(const CLI::App& app, const RenderOptions& options) {
+    if (auto valid = checkOptions(app, options); !valid)
+        return valid;
+    if (options.name == reference)
+        return renderReference(options.source, options.technique.size, options.device.threads, options.reference,
+                               options.out);
+    return render(options);
+}
+
 } // namespace
 
 Command addRenderCommand(CLI::App& program) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* app = program.add_subcommand("render", "render a scene or a stored frame with indirect light");
     addSourceOptions(*app, options->source);
+    app->add_option("--technique", options->name,
+                    "screen_indirect, or reference: path-traced truth (default: screen_indirect)")
+        ->option_text("NAME")
+        ->group("Technique");
     addTechniqueOptions(*app, options->technique);
+    addReferenceOptions(*app, options->reference);
     addDeviceOptions(*app, options->device);
     excludeSceneOptionsFromFrames(*app);
     app->add_option("--out", options->out,
@@ -156,13 +193,18 @@ Command addRenderCommand(CLI::App& program) {
                 "  contact_sheet.png: these, albedo, normals and depth\n"
                 "  timings.json: milliseconds of every pass in one frame, memory [bytes], settings\n"
                 "Every surface is Lambertian and sends its direct light and emission to the others.\n"
+                "--technique reference writes direct.exr and indirect.exr as E / pi, E of light that met 0 or\n"
+                "1 to --bounces surfaces before, first_bounce.exr, standard_error.exr (of indirect's luminance),\n"
+                "and the frame with meta.json, so that --frame takes the folder. It goes on where an\n"
+                "interrupted run, or one with fewer paths, has left a .paths file in the folder.\n"
                 "\n"
                 "Examples:\n"
                 "  rebound render\n"
                 "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
                 "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
+                "  rebound render builtin:cornell --technique reference --size 320x180 --bounces 1 --error 0.01\n"
                 "  rebound render --frame captured --preset half-256 --precision float");
-    return [options] { return exitCodeOf(render(*options)); };
+    return [app, options] { return exitCodeOf(renderChosen(*app, *options)); };
 }
 
 } // namespace rebound::cli
