@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures.hpp"
 
+#include "lab/luminance.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -99,6 +101,20 @@ lab::Picture contactSheetOf(const RenderedImages& images, const lab::Frame& fram
                               {"normals, world space", normalPicture(reduced(frame.normal, factor))},
                               {depthCaption(span), depthPicture(reduced(frame.depth, factor), span)}},
                              3);
+}
+
+lab::Picture differencePicture(const lab::Image& difference, double scale) {
+    // Ends of equal lightness (Moreland's cool-warm map).
+    constexpr glm::vec3 cold(0.230f, 0.299f, 0.754f), warm(0.706f, 0.016f, 0.150f);
+    lab::Picture picture{difference.width, difference.height, {}};
+    for (size_t i = 0; i < difference.data.size(); i += 3) {
+        const float value = lab::luminance({difference.data[i], difference.data[i + 1], difference.data[i + 2]});
+        const float share = std::clamp(value / float(std::max(scale, 1e-30)), -1.0f, 1.0f);
+        const glm::vec3 color = glm::mix(glm::vec3(0.97f), share < 0.0f ? cold : warm, std::abs(share));
+        for (int c = 0; c < 3; ++c)
+            picture.rgb.push_back(byteOf(color[c]));
+    }
+    return picture;
 }
 
 } // namespace rebound::cli

@@ -16,4 +16,7 @@ struct RenderedImages {
 // Direct, indirect and final light with one tone curve, albedo, normals and depth; large images are reduced.
 lab::Picture contactSheetOf(const RenderedImages&, const lab::Frame&, const lab::ToneCurve&);
 
+// Luminance of a signed difference: blue at -scale or below, white at 0, red at scale or above.
+lab::Picture differencePicture(const lab::Image& difference, double scale);
+
 } // namespace rebound::cli
