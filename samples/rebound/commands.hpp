@@ -27,5 +27,6 @@ Command addRenderCommand(CLI::App& program);
 Command addBenchCommand(CLI::App& program);
 Command addPlanCommand(CLI::App& program);
 Command addConformCommand(CLI::App& program);
+Command addCompareCommand(CLI::App& program);
 
 } // namespace rebound::cli
