@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/caption_font.hpp"
+#include "lab/draw_text.hpp"
 #include "lab/image_files.hpp"
 
 #include <algorithm>
@@ -10,10 +10,8 @@ namespace rebound::lab {
 namespace {
 
 constexpr unsigned char background = 32;
-constexpr unsigned char ink = 235;
 constexpr int margin = 8; // around the sheet, between cells, and between a caption and its picture [pixels]
 constexpr int largestFontScale = 2; // pixels a dot of the font
-constexpr int advance = glyphWidth + 1;
 
 // Bytes that continue a UTF-8 character are dropped, so that each character takes one place.
 std::string onePlaceACharacter(std::string_view text) {
@@ -48,32 +46,18 @@ Layout layOut(const std::vector<CaptionedPicture>& pictures, int columns) {
         layout.pictureHeight = std::max(layout.pictureHeight, captioned.picture.height);
         longest = std::max(longest, onePlaceACharacter(captioned.caption).size());
     }
-    const size_t fitting = size_t(layout.cellWidth) / (longest * size_t(advance));
+    const size_t fitting = size_t(layout.cellWidth) / (longest * size_t(textAdvance));
     layout.fontScale = std::clamp(int(fitting), 1, largestFontScale);
     return layout;
-}
-
-void drawDot(Picture& sheet, int left, int top, int size) {
-    for (int y = top; y < top + size; ++y)
-        for (int x = left; x < left + size; ++x)
-            std::fill_n(&sheet.rgb[(size_t(y) * size_t(sheet.width) + size_t(x)) * 3], 3, ink);
-}
-
-void drawGlyph(Picture& sheet, const Glyph& glyph, int left, int top, int scale) {
-    for (int column = 0; column < glyphWidth; ++column)
-        for (int row = 0; row < glyphHeight; ++row)
-            if ((glyph[size_t(column)] >> row) & 1)
-                drawDot(sheet, left + column * scale, top + row * scale, scale);
 }
 
 // A caption that is too long ends in three dots.
 void drawCaption(Picture& sheet, const std::string& caption, int left, int top, const Layout& layout) {
     std::string text = onePlaceACharacter(caption);
-    const size_t places = size_t(layout.cellWidth / (advance * layout.fontScale));
+    const size_t places = size_t(layout.cellWidth / (textAdvance * layout.fontScale));
     if (text.size() > places)
         text = text.substr(0, places > 3 ? places - 3 : 0) + std::string(std::min<size_t>(places, 3), '.');
-    for (size_t i = 0; i < text.size(); ++i)
-        drawGlyph(sheet, glyphOf(text[i]), left + int(i) * advance * layout.fontScale, top, layout.fontScale);
+    drawText(sheet, text, left, top, layout.fontScale);
 }
 
 void drawPicture(Picture& sheet, const Picture& picture, int left, int top) {

@@ -24,6 +24,9 @@ struct ToneCurve {
     float exposure = 1.0f; // factor on radiance
 };
 
+// What the curve makes of one finite channel: its sRGB-encoded value, 0 to 1.
+float displayValue(float radiance, const ToneCurve&);
+
 // An exposure that maps the 90th percentile of the finite positive luminance to 0.8 after the curve.
 ToneCurve automaticToneCurve(const Image& radiance);
 

@@ -25,12 +25,11 @@ float brightness(const float* pixel, int channels) {
     return channels < 3 ? pixel[0] : luminance({pixel[0], pixel[1], pixel[2]});
 }
 
-unsigned char encode(float radiance, float exposure) {
-    const float linear = 1.0f - std::exp(-std::max(radiance, 0.0f) * exposure);
-    return static_cast<unsigned char>(std::lround(255.0f * std::clamp(linearToSrgb(linear), 0.0f, 1.0f)));
+unsigned char encode(float radiance, const ToneCurve& curve) {
+    return static_cast<unsigned char>(std::lround(255.0f * displayValue(radiance, curve)));
 }
 
-void encodePixel(const float* pixel, int channels, float exposure, unsigned char* rgb) {
+void encodePixel(const float* pixel, int channels, const ToneCurve& curve, unsigned char* rgb) {
     const int colours = std::min(channels, 3);
     if (!std::all_of(pixel, pixel + colours, [](float value) { return std::isfinite(value); })) {
         std::copy_n(magenta, 3, rgb);
@@ -38,13 +37,18 @@ void encodePixel(const float* pixel, int channels, float exposure, unsigned char
     }
     for (int c = 0; c < 3; ++c) {
         if (c < colours)
-            rgb[c] = encode(pixel[c], exposure);
+            rgb[c] = encode(pixel[c], curve);
         else
             rgb[c] = colours == 1 ? rgb[0] : static_cast<unsigned char>(0);
     }
 }
 
 } // namespace
+
+float displayValue(float radiance, const ToneCurve& curve) {
+    const float linear = 1.0f - std::exp(-std::max(radiance, 0.0f) * curve.exposure);
+    return std::clamp(linearToSrgb(linear), 0.0f, 1.0f);
+}
 
 ToneCurve automaticToneCurve(const Image& image) {
     std::vector<float> luminances;
@@ -68,7 +72,7 @@ Picture toneMap(const Image& image, const ToneCurve& curve) {
     unsigned char* rgb = picture.rgb.data();
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x, rgb += 3)
-            encodePixel(image.at(x, y), image.channels, curve.exposure, rgb);
+            encodePixel(image.at(x, y), image.channels, curve, rgb);
     return picture;
 }
 

@@ -36,7 +36,7 @@ int runProgram(int argc, char** argv) {
     std::vector<std::pair<CLI::App*, rebound::cli::Command>> commands;
     for (auto add :
          {rebound::cli::addRenderCommand, rebound::cli::addBenchCommand, rebound::cli::addPlanCommand,
-          rebound::cli::addConformCommand, rebound::cli::addExplainCommand}) {
+          rebound::cli::addConformCommand, rebound::cli::addCompareCommand, rebound::cli::addExplainCommand}) {
         auto command = add(program);
         commands.emplace_back(program.get_subcommands(nullptr).back(), std::move(command));
     }
@@ -53,7 +53,10 @@ int runProgram(int argc, char** argv) {
             const auto done = command();
             return done ? finish(*done) : fail(done.error().message);
         }
-    return fail("a command is missing; render, bench, plan, conform or explain was expected (rebound --help says more)");
+    std::string names;
+    for (const auto& command : commands)
+        names += (names.empty() ? "" : ", ") + command.first->get_name();
+    return fail("a command is missing; one of " + names + " was expected (rebound --help says more)");
 }
 
 } // namespace
