@@ -165,6 +165,7 @@ struct EmbreeScene::State {
     std::vector<MeshLookup> lookups;
     DeviceOwner device;
     SceneOwner handle;
+    RayObserver observer;
 };
 
 EmbreeScene::EmbreeScene(std::unique_ptr<State> built) : state(std::move(built)) {}
@@ -204,6 +205,8 @@ Result<EmbreeScene> EmbreeScene::build(const Scene& scene) {
 }
 
 std::optional<LocationHit> EmbreeScene::locate(const Ray& ray) const {
+    if (state->observer)
+        state->observer(ray, false);
     RTCRayHit query{};
     query.ray = toEmbree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -227,6 +230,8 @@ std::optional<SurfaceHit> EmbreeScene::intersect(const Ray& ray) const {
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
+    if (state->observer)
+        state->observer(ray, true);
     RTCRay query = toEmbree(ray);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -298,6 +303,10 @@ bool EmbreeScene::isHole(const SurfaceLocation& at) const {
 
 const Scene& EmbreeScene::scene() const {
     return *state->scene;
+}
+
+void EmbreeScene::observeRays(RayObserver observer) {
+    state->observer = std::move(observer);
 }
 
 } // namespace rebound::lab

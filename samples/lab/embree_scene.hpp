@@ -4,6 +4,7 @@
 
 #include "lab/scene.hpp"
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -89,6 +90,11 @@ public:
     bool isHole(const SurfaceLocation&) const;
 
     const Scene& scene() const;
+
+    // Called for every ray from then on, by the thread that casts it, with whether only occlusion is asked for. For
+    // measurements; empty: never.
+    using RayObserver = std::function<void(const Ray&, bool isShadowRay)>;
+    void observeRays(RayObserver);
 
 private:
     struct State;

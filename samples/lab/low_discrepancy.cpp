@@ -13,13 +13,14 @@ uint32_t reverseBits(uint32_t x) {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-// The second dimension of Sobol's sequence; the first is the reversal of the index's bits.
-uint32_t secondDimension(uint32_t index) {
-    uint32_t result = 0;
-    for (uint32_t direction = 1u << 31; index != 0; index >>= 1, direction ^= direction >> 1)
-        if (index & 1u)
-            result ^= direction;
-    return result;
+// The second dimension of Sobol's sequence from the first, which is the index with its bits reversed: its matrix is
+// Pascal's triangle modulo 2, a product of five sparse ones (Ahmed: An Implementation Algorithm of 2D Sobol Sequence).
+uint32_t secondDimension(uint32_t x) {
+    x ^= x << 16;
+    x ^= (x & 0x00ff00ffu) << 8;
+    x ^= (x & 0x0f0f0f0fu) << 4;
+    x ^= (x & 0x33333333u) << 2;
+    return x ^ ((x & 0x55555555u) << 1);
 }
 
 uint32_t scramble(uint32_t x, uint32_t seed) {
@@ -52,8 +53,9 @@ uint32_t hashBits(uint32_t a, uint32_t b) {
 }
 
 glm::vec2 sobolPoint(uint32_t index, uint32_t seed) {
-    return {toUnitInterval(scramble(reverseBits(index), hashBits(seed))),
-            toUnitInterval(scramble(secondDimension(index), hashBits(seed + 1u)))};
+    const uint32_t first = reverseBits(index);
+    return {toUnitInterval(scramble(first, hashBits(seed))),
+            toUnitInterval(scramble(secondDimension(first), hashBits(seed + 1u)))};
 }
 
 glm::vec2 shuffledSobolPoint(uint32_t index, uint32_t seed) {

@@ -217,6 +217,10 @@ int PathTracer::samples() const {
     return state->done * pathTracerReplicates;
 }
 
+EmbreeScene& PathTracer::embreeScene() {
+    return state->embree;
+}
+
 std::vector<std::byte> PathTracer::save() const {
     return state->sums.save(state->key, state->done);
 }

@@ -3,6 +3,7 @@
 // between.
 #pragma once
 
+#include "lab/embree_scene.hpp"
 #include "lab/frame.hpp"
 #include "lab/scene.hpp"
 
@@ -80,7 +81,10 @@ public:
     PathTracedLight light() const;
     int samples() const; // paths a pixel so far
 
-    // All that has been added up, about 140 bytes a pixel.
+    // The scene that the paths run through; what observes its rays sees every one of them.
+    EmbreeScene& embreeScene();
+
+    // All that has been added up, about 220 bytes a pixel.
     std::vector<std::byte> save() const;
     // Takes up what was saved by a tracer of the same key. Fails, and changes nothing, where the bytes are
     // not that.

@@ -28,6 +28,7 @@ Command addBenchCommand(CLI::App& program);
 Command addPlanCommand(CLI::App& program);
 Command addConformCommand(CLI::App& program);
 Command addExplainCommand(CLI::App& program);
+Command addRaysCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
 
 } // namespace rebound::cli
