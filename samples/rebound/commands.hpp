@@ -29,5 +29,6 @@ Command addPlanCommand(CLI::App& program);
 Command addConformCommand(CLI::App& program);
 Command addExplainCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
+Command addChartCommand(CLI::App& program);
 
 } // namespace rebound::cli

@@ -36,7 +36,8 @@ int runProgram(int argc, char** argv) {
     std::vector<std::pair<CLI::App*, rebound::cli::Command>> commands;
     for (auto add :
          {rebound::cli::addRenderCommand, rebound::cli::addBenchCommand, rebound::cli::addPlanCommand,
-          rebound::cli::addConformCommand, rebound::cli::addCompareCommand, rebound::cli::addExplainCommand}) {
+          rebound::cli::addConformCommand, rebound::cli::addCompareCommand, rebound::cli::addExplainCommand,
+          rebound::cli::addChartCommand}) {
         auto command = add(program);
         commands.emplace_back(program.get_subcommands(nullptr).back(), std::move(command));
     }
