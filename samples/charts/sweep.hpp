@@ -29,7 +29,7 @@ struct SceneChoice {
 
 struct ReferenceChoice {
     int bounces = 1;     // surfaces that light meets in between, 1 to 64
-    int samples = 256;   // paths a pixel at most, 1 to 2^20
+    int samples = 128;   // paths a pixel at most, 1 to 2^20
     double error = 0.02; // relative; tracing ends where it is reached, 0 to 1
 };
 
