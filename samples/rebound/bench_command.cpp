@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "frame_pipeline.hpp"
 #include "frame_source.hpp"
+#include "measure/measurement.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -26,50 +25,8 @@ struct BenchOptions {
     bool json = false;
 };
 
-// What one pass took, or a whole frame, over all measured frames [ms].
-struct Series {
-    std::string name;
-    std::vector<double> milliseconds;
-
-    double minimum() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
-    double median() const {
-        std::vector<double> sorted = milliseconds;
-        std::sort(sorted.begin(), sorted.end());
-        const size_t middle = sorted.size() / 2;
-        return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2.0;
-    }
-};
-
-struct Measurement {
-    std::vector<Series> passes;
-    Series frame{"frame", {}};
-    Series recording{"recording", {}}; // on the host, where a GPU does the work; else empty
-};
-
-void add(Measurement& measurement, const std::vector<PassTiming>& timings, double frameMilliseconds) {
-    if (measurement.passes.empty())
-        for (const PassTiming& pass : timings)
-            measurement.passes.push_back({pass.label, {}});
-    for (size_t i = 0; i < timings.size(); ++i)
-        measurement.passes[i].milliseconds.push_back(timings[i].milliseconds);
-    measurement.frame.milliseconds.push_back(frameMilliseconds);
-}
-
-Result<Measurement> measure(FramePipeline& pipeline, int warmUp, int frames) {
-    Measurement measurement;
-    ProgressLine line("measuring");
-    for (int i = 0; i < warmUp + frames; ++i) {
-        const auto milliseconds = pipeline.run();
-        if (!milliseconds)
-            return milliseconds.error();
-        if (i >= warmUp)
-            add(measurement, pipeline.timings(), *milliseconds);
-        if (const auto recording = pipeline.recordingTime(); recording && i >= warmUp)
-            measurement.recording.milliseconds.push_back(*recording);
-        line.update(double(i + 1) / double(warmUp + frames));
-    }
-    return measurement;
-}
+using measure::Measurement;
+using measure::Series;
 
 Json toJson(Json json, const Measurement& measurement, const BenchOptions& options) {
     json["frames"] = options.frames;
@@ -118,10 +75,13 @@ std::string measurementTable(const std::vector<Run>& runs) {
 
 Result<Run> benchOn(Preparation& preparation, const SourcedFrame& source, const ScreenIndirectSettings& settings,
                     const BenchOptions& options) {
-    auto pipeline = FramePipeline::create(source.frame, settings, *preparation.backend, preparation.precision);
+    auto pipeline =
+        measure::FramePipeline::create(source.frame, settings, *preparation.backend, preparation.precision);
     if (!pipeline)
-        return pipeline.error();
-    auto measurement = measure(*pipeline, options.warmUp, options.frames);
+        return measure::spelled(pipeline.error(), measure::Spelling::options);
+    ProgressLine line("measuring");
+    auto measurement = measure::measureFrames(
+        *pipeline, {options.warmUp, options.frames, [&line](double share) { line.update(share); }});
     if (!measurement)
         return measurement.error();
     return Run{preparation.backend->info(), pipeline->settings(), preparation.precision, pipeline->memoryUse(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "frame_source.hpp"
 
-#include "frame_check.hpp"
+#include "lab/frame_check.hpp"
 #include "lab/scene_files.hpp"
 #include "progress.hpp"
 
@@ -64,7 +64,7 @@ Result<SourcedFrame> obtainFrame(const SourceOptions& options, Extent2D extent, 
     const auto nameOfImage = [&](const char* image) {
         return source.isStored ? (folder / (std::string(image) + ".exr")).string() : prefix + image;
     };
-    if (auto valid = checkFrame(source.frame, nameOfImage); !valid)
+    if (auto valid = lab::checkFrame(source.frame, nameOfImage); !valid)
         return valid.error();
     return source;
 }

@@ -21,7 +21,7 @@ struct SourcedView {
 // The scene and camera that the options name; precondition: they name no stored frame.
 Result<SourcedView> loadView(const SourceOptions&);
 
-// Scenes are rendered at the given size, which frames in folders ignore. The result has passed checkFrame.
+// Scenes are rendered at the given size, which frames in folders ignore. The result has passed lab::checkFrame.
 Result<SourcedFrame> obtainFrame(const SourceOptions&, Extent2D, int threads);
 
 } // namespace rebound::cli

@@ -37,7 +37,7 @@ int runProgram(int argc, char** argv) {
     for (auto add :
          {rebound::cli::addRenderCommand, rebound::cli::addBenchCommand, rebound::cli::addPlanCommand,
           rebound::cli::addConformCommand, rebound::cli::addCompareCommand, rebound::cli::addExplainCommand,
-          rebound::cli::addRaysCommand}) {
+          rebound::cli::addRaysCommand, rebound::cli::addChartCommand}) {
         auto command = add(program);
         commands.emplace_back(program.get_subcommands(nullptr).back(), std::move(command));
     }

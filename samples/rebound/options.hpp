@@ -2,8 +2,7 @@
 // What the commands share on the command line, and what it means.
 #pragma once
 
-#include "rebound/techniques/screen_indirect.hpp"
-#include "runner/runner.hpp"
+#include "measure/settings_draft.hpp"
 
 #include <optional>
 #include <string>
@@ -27,12 +26,8 @@ struct SourceOptions {
 };
 
 // Settings of the technique as they were written; those that are absent are the preset's.
-struct TechniqueOptions {
+struct TechniqueOptions : measure::SettingsDraft {
     std::string size = "1280x720";
-    std::string preset = "quarter-64";
-    std::optional<std::string> start, radius, reduction, formFactor;
-    std::optional<int> levels, samples, onlyLevel;
-    std::optional<float> minimumCosine;
 };
 
 struct DeviceChoice {
@@ -82,10 +77,6 @@ struct Preparation {
 };
 Result<Preparation> prepare(const TechniqueOptions&, const DeviceChoice&);
 
-// How options spell a setting's value.
-const char* nameOf(StartResolution);
-const char* nameOf(Reduction);
-const char* nameOf(FormFactor);
-const char* nameOf(runner::Precision);
+using measure::nameOf;
 
 } // namespace rebound::cli

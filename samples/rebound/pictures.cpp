@@ -2,6 +2,7 @@
 #include "pictures.hpp"
 
 #include "lab/luminance.hpp"
+#include "lab/reduce.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +13,6 @@ namespace rebound::cli {
 namespace {
 
 constexpr int largestSide = 800; // of a picture on the sheet [pixels]
-
-// The mean of factor x factor pixels, fewer at the right and lower edge.
-lab::Image reduced(const lab::Image& image, int factor) {
-    const Extent2D extent{(image.width + factor - 1) / factor, (image.height + factor - 1) / factor};
-    lab::Image result(extent, image.channels);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const int columns = std::min(factor, image.width - x / factor * factor);
-            const int rows = std::min(factor, image.height - y / factor * factor);
-            for (int c = 0; c < image.channels; ++c)
-                result.at(x / factor, y / factor)[c] += image.at(x, y)[c] / float(columns * rows);
-        }
-    return result;
-}
 
 unsigned char byteOf(float value) {
     return static_cast<unsigned char>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
@@ -92,14 +79,14 @@ std::string depthCaption(const DepthSpan& span) {
 lab::Picture contactSheetOf(const RenderedImages& images, const lab::Frame& frame,
                             const lab::ToneCurve& curve) {
     const int factor = (std::max(frame.depth.width, frame.depth.height) + largestSide - 1) / largestSide;
-    const auto shown = [&](const lab::Image& image) { return lab::toneMap(reduced(image, factor), curve); };
+    const auto shown = [&](const lab::Image& image) { return lab::toneMap(lab::reduced(image, factor), curve); };
     const DepthSpan span = spanOf(frame.depth);
     return lab::contactSheet({{"direct", shown(images.direct)},
                               {"indirect, albedo not in it", shown(images.indirect)},
                               {"final = direct + albedo * indirect", shown(images.final)},
-                              {"albedo", pictureOf(reduced(frame.albedo, factor), sRgbByteOf)},
-                              {"normals, world space", normalPicture(reduced(frame.normal, factor))},
-                              {depthCaption(span), depthPicture(reduced(frame.depth, factor), span)}},
+                              {"albedo", pictureOf(lab::reduced(frame.albedo, factor), sRgbByteOf)},
+                              {"normals, world space", normalPicture(lab::reduced(frame.normal, factor))},
+                              {depthCaption(span), depthPicture(lab::reduced(frame.depth, factor), span)}},
                              3);
 }
 

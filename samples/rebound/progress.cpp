@@ -22,7 +22,7 @@ void ProgressLine::update(double share) {
         return;
     next = Clock::now() + std::chrono::milliseconds(200);
     shown = true;
-    std::fprintf(stderr, "\r%s: %.0f %%", what.c_str(), share * 100.0);
+    std::fprintf(stderr, "\r\033[K%s: %.0f %%", what.c_str(), share * 100.0);
     std::fflush(stderr);
 }
 

@@ -16,6 +16,9 @@ public:
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
+    // What the line says from now on.
+    void describe(const std::string& step) { what = step; }
+
     // share: what is done, 0 to 1. From any thread, one call at a time.
     void update(double share);
 

@@ -6,7 +6,7 @@
 #include "lab/image_files.hpp"
 #include "lab/output_file.hpp"
 #include "lab/reference_cache.hpp"
-#include "named_values.hpp"
+#include "measure/named_values.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
@@ -129,7 +129,7 @@ Result<lab::PathTracedLight> trace(const SourcedView& view, lab::PathTracerOptio
 } // namespace
 
 const char* nameOf(lab::GlossyModel value) {
-    return nameIn<lab::GlossyModel>(glossyNames, value);
+    return measure::nameIn<lab::GlossyModel>(glossyNames, value);
 }
 
 void addReferenceOptions(CLI::App& app, ReferenceOptions& o) {
@@ -164,7 +164,7 @@ Result<lab::PathTracerOptions> pathTracerOptionsOf(const ReferenceOptions& o, Ex
     options.error = o.error.value_or(options.error);
     options.seed = o.seed.value_or(options.seed);
     if (o.glossy) {
-        const auto glossy = valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
+        const auto glossy = measure::valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
         if (!glossy)
             return glossy.error();
         options.glossy = *glossy;

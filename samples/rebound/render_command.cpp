@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "frame_pipeline.hpp"
 #include "frame_source.hpp"
 #include "lab/image_files.hpp"
 #include "lab/output_file.hpp"
-#include "named_values.hpp"
+#include "measure/frame_pipeline.hpp"
+#include "measure/named_values.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
@@ -72,13 +72,13 @@ std::string timingTable(const std::vector<PassTiming>& timings, double frameMill
 
 // The first frame after the plan was compiled pays for memory that was not touched before; the second is
 // measured.
-Result<double> runMeasured(FramePipeline& pipeline) {
+Result<double> runMeasured(measure::FramePipeline& pipeline) {
     if (auto first = pipeline.run(); !first)
         return first;
     return pipeline.run();
 }
 
-void printLimited(const FramePipeline& pipeline) {
+void printLimited(const measure::FramePipeline& pipeline) {
     if (pipeline.limitedPixels() > 0)
         std::cout << "note: radiance above " << runner::largestHalf << " W m^-2 sr^-1 was limited to it in "
                   << pipeline.limitedPixels() << " pixels\n";
@@ -97,9 +97,9 @@ Result<> render(const RenderOptions& options) {
     if (!settings)
         return settings.error();
     auto pipeline =
-        FramePipeline::create(source->frame, *settings, *preparation->backend, preparation->precision);
+        measure::FramePipeline::create(source->frame, *settings, *preparation->backend, preparation->precision);
     if (!pipeline)
-        return pipeline.error();
+        return measure::spelled(pipeline.error(), measure::Spelling::options);
     const auto milliseconds = runMeasured(*pipeline);
     if (!milliseconds)
         return milliseconds.error();
@@ -145,7 +145,7 @@ Result<> render(const RenderOptions& options) {
 // Options that the chosen technique would ignore are mistakes.
 Result<> checkOptions(const CLI::App& app, const RenderOptions& options) {
     if (options.name != screenIndirect && options.name != reference)
-        return unexpected("--technique", options.name, std::string("one of ") + screenIndirect + ", " + reference);
+        return measure::unexpected("--technique", options.name, std::string("one of ") + screenIndirect + ", " + reference);
     const bool traced = options.name == reference;
     for (const CLI::Option* option : app.get_options()) {
         const std::string name = "--" + (option->get_lnames().empty() ? "" : option->get_lnames()[0]);

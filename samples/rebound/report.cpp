@@ -15,20 +15,6 @@ std::string megabytes(size_t bytes) {
     return formatted("%.2f MB", double(bytes) / 1e6);
 }
 
-Json settingsToJson(const ScreenIndirectSettings& s, const std::string& preset) {
-    Json json;
-    json["preset"] = preset;
-    json["start"] = nameOf(s.start);
-    json["levels"] = s.levels;
-    json["samples_per_level"] = s.samplesPerLevel;
-    json["ring_radius_texels"] = s.ringRadius;
-    json["reduction"] = nameOf(s.reduction);
-    json["form_factor"] = nameOf(s.formFactor);
-    json["minimum_cosine"] = s.minimumCosine;
-    json["only_level"] = s.onlyLevel ? Json(*s.onlyLevel) : Json(nullptr);
-    return json;
-}
-
 } // namespace
 
 std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings& s,
@@ -54,7 +40,7 @@ Json runToJson(const SourcedFrame& source, const ScreenIndirectSettings& s, cons
     json[source.isStored ? "frame_folder" : "scene"] = source.name;
     json["camera"] = source.frame.camera.name;
     json["resolution"] = {s.resolution.width, s.resolution.height};
-    json["settings"] = settingsToJson(s, preset);
+    json["settings"] = measure::settingsToJson(s, preset);
     json["backend"] = backend.backend;
     if (backend.backend == "cpu") {
         json["isa"] = backend.isa;

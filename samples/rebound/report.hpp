@@ -2,10 +2,8 @@
 // Figures as tables for people and as JSON for programs.
 #pragma once
 
-#include "frame_pipeline.hpp"
 #include "frame_source.hpp"
-
-#include <nlohmann/json.hpp>
+#include "measure/settings_json.hpp"
 
 #include <cstdio>
 #include <string>
@@ -14,8 +12,7 @@
 
 namespace rebound::cli {
 
-// Keeps the order in which keys were added.
-using Json = nlohmann::ordered_json;
+using measure::Json;
 
 // As printf has it, up to 511 characters.
 template <class... Values>

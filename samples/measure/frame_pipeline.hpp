@@ -6,7 +6,7 @@
 #include "rebound/techniques/screen_indirect.hpp"
 #include "runner/runner.hpp"
 
-namespace rebound::cli {
+namespace rebound::measure {
 
 class FramePipeline {
 public:
@@ -35,4 +35,4 @@ private:
     size_t limited = 0;
 };
 
-} // namespace rebound::cli
+} // namespace rebound::measure

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "frame_check.hpp"
+#include "lab/frame_check.hpp"
 
 #include <cmath>
 #include <cstdio>
 
-namespace rebound::cli {
+namespace rebound::lab {
 
 namespace {
 
@@ -23,7 +23,7 @@ struct WrongPixels {
 };
 
 template <class IsWrong>
-WrongPixels findWrong(const lab::Image& image, const IsWrong& isWrong) {
+WrongPixels findWrong(const Image& image, const IsWrong& isWrong) {
     WrongPixels wrong;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
@@ -44,7 +44,7 @@ std::string valueText(const float* value, int channels) {
     return text;
 }
 
-Error wrongImage(const std::string& name, const lab::Image& image, const WrongPixels& wrong,
+Error wrongImage(const std::string& name, const Image& image, const WrongPixels& wrong,
                  const std::string& what) {
     return {ErrorCode::invalidData,
             name + ": " + std::to_string(wrong.count) + (wrong.count == 1 ? " pixel is " : " pixels are ") +
@@ -59,7 +59,7 @@ bool anyOf(const float* pixel, int channels, bool (*test)(float)) {
     return false;
 }
 
-Result<> checkRange(const std::string& name, const lab::Image& image) {
+Result<> checkRange(const std::string& name, const Image& image) {
     const int channels = image.channels;
     const auto notFinite = findWrong(image, [&](int, int, const float* pixel) {
         return anyOf(pixel, channels, [](float value) { return !std::isfinite(value); });
@@ -74,7 +74,7 @@ Result<> checkRange(const std::string& name, const lab::Image& image) {
     return {};
 }
 
-Result<> checkAlbedo(const std::string& name, const lab::Image& image) {
+Result<> checkAlbedo(const std::string& name, const Image& image) {
     if (auto inRange = checkRange(name, image); !inRange)
         return inRange;
     const auto above = findWrong(image, [](int, int, const float* pixel) {
@@ -89,7 +89,7 @@ float lengthOf(const float* n) {
     return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
 }
 
-Result<> checkNormals(const std::string& name, const lab::Image& image, const lab::Image& depth) {
+Result<> checkNormals(const std::string& name, const Image& image, const Image& depth) {
     const auto findLengths = [&](auto isWrong) {
         return findWrong(image, [&](int x, int y, const float* n) {
             return *depth.at(x, y) > 0.0f && isWrong(lengthOf(n));
@@ -108,8 +108,8 @@ Result<> checkNormals(const std::string& name, const lab::Image& image, const la
 
 } // namespace
 
-Result<> checkFrame(const lab::Frame& frame, const std::function<std::string(const char*)>& nameOfImage) {
-    if (auto complete = lab::validate(frame); !complete)
+Result<> checkFrame(const Frame& frame, const std::function<std::string(const char*)>& nameOfImage) {
+    if (auto complete = validate(frame); !complete)
         return complete;
     if (auto depth = checkRange(nameOfImage("depth"), frame.depth); !depth)
         return depth;
@@ -122,4 +122,4 @@ Result<> checkFrame(const lab::Frame& frame, const std::function<std::string(con
     return frame.emission.empty() ? Result<>() : checkRange(nameOfImage("emission"), frame.emission);
 }
 
-} // namespace rebound::cli
+} // namespace rebound::lab

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "frame_pipeline.hpp"
+#include "measure/frame_pipeline.hpp"
 
 #include "lab/camera_matrices.hpp"
-#include "options.hpp"
 #include "runner/texels.hpp"
 
 #include <algorithm>
 
-namespace rebound::cli {
+namespace rebound::measure {
 
 namespace {
 
@@ -30,7 +29,7 @@ Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const Scree
     pipeline.settings_ = requested;
     pipeline.settings_.conventions.projection =
         frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    auto plan = planOf(pipeline.settings_);
+    auto plan = planScreenIndirect(pipeline.settings_);
     if (!plan)
         return plan.error();
     pipeline.outgoing = lab::outgoingRadiance(frame);
@@ -50,4 +49,4 @@ Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const Scree
     return pipeline;
 }
 
-} // namespace rebound::cli
+} // namespace rebound::measure

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options whose value is one of a few names.
+// Options and keys whose value is one of a few names.
 #pragma once
 
 #include "rebound/result.hpp"
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace rebound::cli {
+namespace rebound::measure {
 
 template <class T>
 using Names = std::span<const std::pair<const char*, T>>;
@@ -18,7 +18,7 @@ inline Error unexpected(const std::string& option, const std::string& value, con
 }
 
 template <class T>
-Result<T> valueNamed(const char* option, const std::string& wanted, Names<T> names) {
+Result<T> valueNamed(const std::string& option, const std::string& wanted, Names<T> names) {
     std::string known;
     for (const auto& [name, value] : names) {
         if (wanted == name)
@@ -36,4 +36,4 @@ const char* nameIn(Names<T> names, T wanted) {
     return "?";
 }
 
-} // namespace rebound::cli
+} // namespace rebound::measure
