@@ -36,7 +36,7 @@ struct Point {
     std::string picture;  // file name of its pictures in points/, without what follows: .png, -error.png and others
 
     // Points of one group compete: the same device of the same machine.
-    std::string group() const { return isPeer ? backend + " on " + machine : backend + " on " + device; }
+    std::string group() const { return backend + " (" + (isPeer ? machine : device) + ")"; }
 };
 
 // What the charts know of a view.

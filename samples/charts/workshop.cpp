@@ -41,6 +41,8 @@ Result<> LabWorkshop::prepareFrame(const View& view, const lab::Progress& progre
     if (auto valid = lab::checkFrame(*rendered, nameOfImage); !valid)
         return valid;
     frame = *std::move(rendered);
+    // The truth counts light straight from emitters as direct light, so that senders must not send it again.
+    frame.emission = {};
     frameOf = view.label;
     return {};
 }

@@ -113,7 +113,7 @@ TEST_CASE("the page needs nothing from elsewhere, and holds each distinct pictur
 
 TEST_CASE("the summary has the fronts, and what is never worth its time") {
     const std::string text = summaryText(madeResults());
-    for (const char* part : {"### atrium nave, cpu on avx2 on 2 threads", "### cornell front", "geometric means",
+    for (const char* part : {"### atrium nave, cpu (avx2 on 2 threads)", "### cornell front", "geometric means",
                              "one other surface", "256 paths a pixel", "Never worth their time"})
         CHECK(holds(text, part));
     const std::string never = text.substr(text.find("Never worth"));

@@ -42,7 +42,7 @@ async function panel() {
 async function drive() {
   const report = {all: counts(), panelAtFirst: await panel()};
   report.withoutAtrium = withClicked(boxOf('view-filters', 'atrium nave'));
-  report.withoutCpu = withClicked(boxOf('group-filters', 'cpu on avx2 on 2 threads'));
+  report.withoutCpu = withClicked(boxOf('group-filters', 'cpu (avx2 on 2 threads)'));
   report.withoutTechnique = withClicked(boxOf('technique-filters', 'screen_indirect'));
   report.frontOnly = withClicked(byId('front-only'));
   byId('view-filters').querySelector('.only').click();

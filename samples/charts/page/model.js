@@ -35,7 +35,7 @@ const distinct = values => [...new Set(values)];
 const points = results.points.map((point, index) => ({
   ...point,
   index,
-  group: `${point.backend} on ${point.peer ? point.machine : point.device}`,
+  group: `${point.backend} (${point.peer ? point.machine : point.device})`,
 }));
 const views = results.views.map(view => view.view);
 const groups = distinct(points.map(point => point.group));
