@@ -230,8 +230,7 @@ TEST_CASE("a pipeline cache is taken back from an earlier run, and only if it is
         options.pipelineCache = stored;
         const vulkan::Device device = host->device(options);
         const size_t size = interception().cacheSize;
-        CHECK(runOnVulkan(*host, device, copyPlan(extent), {{"host", numbered(extent)}}, {accessConstants(extent)}).values ==
-              shifted(numbered(extent), {2, 1}).values);
+        CHECK(runsRight(*host, device));
         return size;
     };
     CHECK(accepted(*kept) > 0);

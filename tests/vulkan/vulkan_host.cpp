@@ -156,4 +156,10 @@ Picture shifted(const Picture& picture, ivec2 offset) {
     return result;
 }
 
+bool runsRight(const VulkanHost& host, const vulkan::Device& device) {
+    const Extent2D extent{20, 5};
+    return runOnVulkan(host, device, copyPlan(extent), {{"host", numbered(extent)}}, {accessConstants(extent)}).values ==
+           shifted(numbered(extent), {2, 1}).values;
+}
+
 } // namespace rebound::test

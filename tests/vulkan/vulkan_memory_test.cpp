@@ -64,11 +64,6 @@ vulkan::Device deviceWith(const VulkanHost& host, CountingAllocator& allocator) 
     return host.device(options);
 }
 
-bool runsRight(const VulkanHost& host, const vulkan::Device& device) {
-    return runOnVulkan(host, device, copyPlan(extent), {{"host", numbered(extent)}}, {accessConstants(extent)}).values ==
-           shifted(numbered(extent), {2, 1}).values;
-}
-
 Plan screenPlan(Extent2D e) {
     const auto settings = screenIndirectPreset("half-64", e);
     REQUIRE(settings);
