@@ -89,7 +89,9 @@ Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes, const 
 
 Result<> Device::Shared::check(VkResult result, const std::string& what) const {
     if (result == VK_SUCCESS) return {};
-    if (result == VK_ERROR_DEVICE_LOST) return loss.note(what);
+    if (result == VK_ERROR_DEVICE_LOST)
+        return loss.note(what + " failed with VK_ERROR_DEVICE_LOST: the device is lost, and what was made with it can only be "
+                                "destroyed");
     const char* name = shortageOf(result);
     return Error{name ? ErrorCode::outOfMemory : ErrorCode::unsupported,
                  what + " failed with " + (name ? name : "VkResult " + std::to_string(int(result)))};

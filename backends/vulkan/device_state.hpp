@@ -3,7 +3,7 @@
 #pragma once
 
 #include "functions.hpp"
-#include "loss.hpp"
+#include "rebound/detail/loss.hpp"
 #include "rebound/vulkan/device.hpp"
 
 #include <array>
@@ -36,7 +36,7 @@ struct Device::Shared {
     std::mutex mutex;             // guards kernels
     std::map<const Shader*, Kernel> kernels;
 
-    mutable Loss loss;
+    mutable detail::Loss loss;
 
     Shared() = default;
     Shared(const Shared&) = delete;
