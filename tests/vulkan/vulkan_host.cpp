@@ -43,9 +43,8 @@ std::unique_ptr<VulkanHost> VulkanHost::open() {
     host::VulkanOptions options;
     options.validation = true;
     auto context = host::VulkanContext::create(options);
-    if (context) return std::unique_ptr<VulkanHost>(new VulkanHost(*std::move(context)));
-    MESSAGE("skipped: ", context.error().message);
-    return nullptr;
+    REQUIRE_MESSAGE(context, (context ? "" : context.error().message));
+    return std::unique_ptr<VulkanHost>(new VulkanHost(*std::move(context)));
 }
 
 VulkanHost::~VulkanHost() {

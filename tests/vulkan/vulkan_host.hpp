@@ -15,7 +15,6 @@
 
 namespace rebound::test {
 
-// Where Vulkan or its validation layer is missing, null, and a message that says so.
 class VulkanHost {
 public:
     static std::unique_ptr<VulkanHost> open();

@@ -17,7 +17,6 @@ void checkRefused(const std::string& arguments, const std::string& part) {
 } // namespace
 
 TEST_CASE("a picture of a built-in scene, with validation on") {
-    if (!openContext()) return;
     const lab::TemporaryFolder folder;
     const Outcome outcome = run("builtin:cornell --size 120x80 --frames 3 --validation --out picture.png", folder.path());
     REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.errors);
@@ -29,7 +28,6 @@ TEST_CASE("a picture of a built-in scene, with validation on") {
 }
 
 TEST_CASE("a window, with validation on, where there is a display") {
-    if (!openContext()) return;
     const lab::TemporaryFolder folder;
     if (run("--help", folder.path()).output.find("--window") == std::string::npos || !std::getenv("DISPLAY")) {
         MESSAGE("not run: the build has no GLFW, or DISPLAY names no display");
@@ -54,7 +52,6 @@ TEST_CASE("what it cannot do ends in one sentence and exit code 2") {
 }
 
 TEST_CASE("what the machine lacks ends in one sentence and exit code 2") {
-    if (!openContext()) return;
     checkRefused("builtin:cornell --size 8x8 --device \"no such GPU\"", "whose name holds \"no such GPU\"");
     checkRefused("builtin:cornell --size 8x8 --out missing/folder/picture.png", "missing/folder/picture.png");
 }
