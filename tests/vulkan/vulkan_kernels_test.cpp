@@ -2,6 +2,7 @@
 // Every test kernel on Vulkan against the scalar CPU device, within what Vulkan promises of its operations.
 #include "vulkan_host.hpp"
 
+#include "../unit/arithmetic_operands.hpp"
 #include "../unit/test_camera.hpp"
 
 #include <cmath>
@@ -42,27 +43,6 @@ private:
     vulkan::Device device;
 };
 
-// Every pair of the values, and a third that cycles through them.
-struct Operands {
-    Picture x, y, z;
-};
-Operands everyPair(const std::vector<float>& values) {
-    const int n = int(values.size());
-    const Extent2D extent{33, (n * n + 32) / 33};
-    Operands o{Picture(extent, 1), Picture(extent, 1), Picture(extent, 1)};
-    for (int i = 0; i < extent.width * extent.height; ++i) {
-        o.x.values[size_t(i)] = values[size_t(i % n)];
-        o.y.values[size_t(i)] = values[size_t(i / n % n)];
-        o.z.values[size_t(i)] = values[size_t((i * 7 + 3) % n)];
-    }
-    return o;
-}
-
-KernelCall arithmetic(int operation, Operands& o) {
-    const GridConstants k{{o.x.extent.width, o.x.extent.height, 0, 0}};
-    return {"arithmetic", {operation}, {{0, &o.x}, {1, &o.y}, {2, &o.z}}, {{4, bytesOf(k)}}, 3, o.x.extent};
-}
-
 } // namespace
 
 TEST_CASE("arithmetic: exact where Vulkan rounds correctly, within its units in the last place elsewhere") {
@@ -96,20 +76,12 @@ TEST_CASE("arithmetic: exact where Vulkan rounds correctly, within its units in 
 TEST_CASE("whole numbers, vectors, and what is not finite") {
     const auto host = VulkanHost::open();
     const Comparison compare(*host);
-    std::vector<float> whole;
-    for (int i = -9; i <= 9; ++i) whole.push_back(float(i));
-    for (float v : {4096.0f, -4096.0f, 1000.0f, 32767.0f, -2.9f, 2.9f, 12345.0f}) whole.push_back(v);
-    Operands o = everyPair(whole);
+    Operands whole = everyPair(wholeNumbers());
     for (int operation = opIntAdd; operation <= opRoundTrip; ++operation) {
         CAPTURE(operation);
-        compare.check(arithmetic(operation, o), 0.0);
+        compare.check(arithmetic(operation, whole), 0.0);
     }
-    Operands vectors{Picture({17, 3}, 4), Picture({17, 3}, 4), Picture({17, 3}, 4)};
-    for (size_t i = 0; i < vectors.x.values.size(); ++i) {
-        vectors.x.values[i] = float(int(i * 5 % 23) - 11) / 4.0f;
-        vectors.y.values[i] = float(int(i * 7 % 19) - 9) / 8.0f;
-        vectors.z.values[i] = float(int(i % 3) - 1);
-    }
+    Operands vectors = exactVectors();
     compare.check(arithmetic(opVectors, vectors), 1e-6, 1e-5); // a root beside exact sums that may cancel
     compare.check(arithmetic(opVectorSelect, vectors), 0.0);
     Operands exact = everyPair({0.0f, 1.0f, 0.5f, 0.25f, -3.0f, 8.0f});
