@@ -11,6 +11,8 @@ namespace rebound::opengl {
 
 namespace {
 
+constexpr const char* compiling = "compiling a plan";
+
 Error exceeds(const std::string& what, int64_t value, const char* unit, int64_t limit) {
     return {ErrorCode::unsupported,
             what + std::to_string(value) + " " + unit + "; this context allows " + std::to_string(limit)};
@@ -98,11 +100,15 @@ Result<> checkPlan(const Device::Shared& device, const Plan& plan, Program::Stat
 }
 
 Result<> checkContext(const Gl& gl) {
-    if (!gl.GetString(GL_VERSION))
+    const bool isCurrent = gl.GetString(GL_VERSION) != nullptr;
+    // Reading an error clears it: so it is handed on, for the host to know.
+    const GLenum error = gl.GetError();
+    if (error == GL_CONTEXT_LOST)
+        return gl.lost(compiling, error);
+    if (!isCurrent)
         return invalidArgument(
             "no OpenGL context is current; the one that the device was created in was expected");
-    // Reading an error clears it: so it is handed on, for the host to know.
-    if (const GLenum error = gl.GetError(); error != GL_NO_ERROR)
+    if (error != GL_NO_ERROR)
         return invalidArgument(errorName(error) + " was pending before compile(); no error was expected");
     return {};
 }
@@ -172,40 +178,15 @@ Result<> checkAllocations(const Gl& gl, const MemoryUse& use) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR)
         return {};
+    if (error == GL_CONTEXT_LOST)
+        return gl.lost(compiling, error);
     if (error == GL_OUT_OF_MEMORY)
         return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(use.total()) +
                                                  " bytes, which OpenGL could not allocate"};
     return Error{ErrorCode::unsupported, "OpenGL refuses what the plan needs: " + errorName(error)};
 }
 
-} // namespace
-
-Result<Device> Device::create(const DeviceOptions& options) {
-    auto gl = Gl::load(options.loader);
-    if (!gl)
-        return gl.error();
-    auto shared = std::make_shared<Shared>();
-    shared->gl = *gl;
-    shared->timings = options.timings && (*gl)->QueryCounter;
-    shared->shaders = options.moreShaders;
-    shared->shaders.push_back(techniqueShaders());
-    Device device;
-    device.shared = std::move(shared);
-    return device;
-}
-
-bool Device::isEs() const {
-    return shared->gl->es;
-}
-bool Device::hasTimings() const {
-    return shared->timings;
-}
-
-MemoryUse Device::memoryUse(const Plan& plan) const {
-    return validate(plan) ? planMemory(plan, shared->gl->limits.alignment).use : MemoryUse{};
-}
-
-Result<Program> Device::compile(const Plan& plan) const {
+Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared, const Plan& plan) {
     auto state = std::make_unique<Program::State>();
     state->device = shared;
     state->gl = shared->gl;
@@ -238,6 +219,43 @@ Result<Program> Device::compile(const Plan& plan) const {
     if (auto allocated = checkAllocations(gl, state->memory.use); !allocated)
         return allocated.error();
     return Program(std::move(state));
+}
+
+} // namespace
+
+Result<Device> Device::create(const DeviceOptions& options) {
+    auto gl = Gl::load(options.loader);
+    if (!gl)
+        return gl.error();
+    auto shared = std::make_shared<Shared>();
+    shared->gl = *gl;
+    shared->timings = options.timings && (*gl)->QueryCounter;
+    shared->shaders = options.moreShaders;
+    shared->shaders.push_back(techniqueShaders());
+    Device device;
+    device.shared = std::move(shared);
+    return device;
+}
+
+bool Device::isEs() const {
+    return shared->gl->es;
+}
+bool Device::hasTimings() const {
+    return shared->timings;
+}
+
+MemoryUse Device::memoryUse(const Plan& plan) const {
+    return validate(plan) ? planMemory(plan, shared->gl->limits.alignment).use : MemoryUse{};
+}
+
+Result<Program> Device::compile(const Plan& plan) const {
+    if (auto present = shared->gl->checkPresent(compiling); !present)
+        return present.error();
+    auto program = compilePlan(shared, plan);
+    // A context that was lost meanwhile refuses shaders, or says nothing at all.
+    if (auto present = shared->gl->checkPresent(compiling); !present)
+        return present.error();
+    return program;
 }
 
 } // namespace rebound::opengl

@@ -7,6 +7,8 @@
 namespace rebound::opengl {
 namespace {
 
+constexpr const char* creating = "creating a device";
+
 template <class Function>
 void find(const Loader& loader, Function& function, const std::string& name) {
     function = reinterpret_cast<Function>(loader(name.c_str()));
@@ -20,6 +22,8 @@ Error missingFunction(const std::string& name) {
 // "4.6.0 NVIDIA 535.54" or "OpenGL ES 3.2 Mesa 22.3.6".
 Result<> readVersion(Gl& gl) {
     const char* text = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
+    if (!text && gl.GetError && gl.GetError() == GL_CONTEXT_LOST)
+        return gl.lost(creating, GL_CONTEXT_LOST);
     if (!text)
         return invalidArgument(
             "no OpenGL context is current; one of OpenGL 4.3 or OpenGL ES 3.1 was expected");
@@ -94,6 +98,17 @@ void findTimestamps(Gl& gl, const Loader& loader) {
         gl.QueryCounter = nullptr;
 }
 
+// Part of OpenGL 4.5 and OpenGL ES 3.2; before, of several extensions.
+void findResetStatus(Gl& gl, const Loader& loader) {
+    const std::string name = "glGetGraphicsResetStatus";
+    if (gl.version >= (gl.es ? 32 : 45))
+        find(loader, gl.GetGraphicsResetStatus, name);
+    else if (hasExtension(gl, "GL_KHR_robustness"))
+        find(loader, gl.GetGraphicsResetStatus, name + (gl.es ? "KHR" : ""));
+    else if (hasExtension(gl, gl.es ? "GL_EXT_robustness" : "GL_ARB_robustness"))
+        find(loader, gl.GetGraphicsResetStatus, name + (gl.es ? "EXT" : "ARB"));
+}
+
 void readLimits(Gl& gl) {
     Limits& l = gl.limits;
     l.textureSize = gl.integer(GL_MAX_TEXTURE_SIZE);
@@ -121,6 +136,7 @@ Result<std::shared_ptr<const Gl>> Gl::load(const Loader& loader) {
     find(loader, gl->GetString, "glGetString");
     if (!gl->GetString)
         return missingFunction("glGetString");
+    find(loader, gl->GetError, "glGetError");
     // Before all other functions: a context that is too old lacks some.
     if (auto version = readVersion(*gl); !version)
         return version.error();
@@ -129,7 +145,25 @@ Result<std::shared_ptr<const Gl>> Gl::load(const Loader& loader) {
     readLimits(*gl);
     findDebug(*gl, loader);
     findTimestamps(*gl, loader);
+    findResetStatus(*gl, loader);
+    // A context that was lost meanwhile has told nothing but zeros.
+    if (auto present = gl->checkPresent(creating); !present)
+        return present.error();
     return std::shared_ptr<const Gl>(std::move(gl));
+}
+
+Result<> Gl::checkPresent(const char* doing) const {
+    if (auto present = loss.check(); !present)
+        return present;
+    const GLenum status = GetGraphicsResetStatus ? GetGraphicsResetStatus() : GLenum(GL_NO_ERROR);
+    if (status != GL_NO_ERROR)
+        return lost(doing, status);
+    return {};
+}
+
+Error Gl::lost(const char* doing, GLenum how) const {
+    return loss.note(std::string(doing) + " failed with " + errorName(how) +
+                     ": the OpenGL context is lost, and what was made in it can only be destroyed");
 }
 
 void Gl::label(GLenum kind, GLuint object, std::string_view text) const {
@@ -155,6 +189,12 @@ std::string errorName(GLenum error) {
         return "GL_STACK_UNDERFLOW";
     case GL_CONTEXT_LOST:
         return "GL_CONTEXT_LOST";
+    case GL_GUILTY_CONTEXT_RESET:
+        return "GL_GUILTY_CONTEXT_RESET";
+    case GL_INNOCENT_CONTEXT_RESET:
+        return "GL_INNOCENT_CONTEXT_RESET";
+    case GL_UNKNOWN_CONTEXT_RESET:
+        return "GL_UNKNOWN_CONTEXT_RESET";
     default:
         return "the error " + std::to_string(error);
     }

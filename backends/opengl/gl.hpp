@@ -2,6 +2,7 @@
 // OpenGL's functions as the host's loader finds them, and what the context can do.
 #pragma once
 
+#include "rebound/detail/loss.hpp"
 #include "rebound/opengl/device.hpp"
 
 #include <GL/glcorearb.h>
@@ -79,18 +80,20 @@ struct Gl {
 #define REBOUND_GL_MEMBER(type, name) type name = nullptr;
     REBOUND_GL_FUNCTIONS(REBOUND_GL_MEMBER)
 #undef REBOUND_GL_MEMBER
-    // Null where the context lacks them: KHR_debug, and timestamps.
+    // Null where the context lacks them: KHR_debug, timestamps, and KHR_robustness or its like.
     PFNGLPUSHDEBUGGROUPPROC PushDebugGroup = nullptr;
     PFNGLPOPDEBUGGROUPPROC PopDebugGroup = nullptr;
     PFNGLOBJECTLABELPROC ObjectLabel = nullptr;
     PFNGLQUERYCOUNTERPROC QueryCounter = nullptr;
     PFNGLGETQUERYOBJECTUI64VPROC GetQueryObjectui64v = nullptr;
+    PFNGLGETGRAPHICSRESETSTATUSPROC GetGraphicsResetStatus = nullptr;
 
     bool es = false;
     int version = 0; // 43 stands for 4.3
     Limits limits;
+    mutable detail::Loss loss; // of the context
 
-    // Fails where no context is current, it is too old, or a function is missing.
+    // Fails where no context is current, it is too old or lost, or a function is missing.
     static Result<std::shared_ptr<const Gl>> load(const Loader&);
 
     int integer(GLenum name) const {
@@ -98,10 +101,15 @@ struct Gl {
         GetIntegerv(name, &value);
         return value;
     }
+    // Fails where the context is lost, from the first call on that finds out. Reads the reset status, which
+    // some drivers tell only once.
+    Result<> checkPresent(const char* doing) const;
+    // The error of a lost context, as a reset status or GL_CONTEXT_LOST says it is.
+    Error lost(const char* doing, GLenum how) const;
     void label(GLenum kind, GLuint object, std::string_view text) const;
 };
 
-// The name of an error that glGetError gives.
+// The name of an error that glGetError gives, or of a reset status.
 std::string errorName(GLenum);
 
 } // namespace rebound::opengl

@@ -41,6 +41,8 @@ void PassTimer::endFrame() {
 }
 
 const std::vector<PassTiming>& PassTimer::timings() {
+    if (!gl->loss.check())
+        return latest;
     while (!underWay.empty() && &underWay.front() != current) {
         const Frame& frame = underWay.front();
         GLuint available = 0;
@@ -49,8 +51,11 @@ const std::vector<PassTiming>& PassTimer::timings() {
             break;
         // On ES the clock may jump, when the GPU changes its frequency for example, which this tells.
         const bool jumped = gl->es && gl->integer(gpuDisjoint) != 0;
+        const std::vector<double> times = milliseconds(frame);
+        // Of a lost context, every query is available and none has a result.
+        if (!gl->checkPresent("reading timestamps"))
+            break;
         if (!jumped) {
-            const std::vector<double> times = milliseconds(frame);
             latest.clear();
             for (size_t i = 0; i < labels.size(); ++i)
                 latest.push_back({labels[i], times[i]});

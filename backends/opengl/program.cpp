@@ -95,6 +95,39 @@ void runPass(const Program::State& state, size_t index, const Inputs& inputs) {
     gl.DispatchCompute(pass.groups[0], pass.groups[1], 1);
 }
 
+Result<> recordFrame(Program::State& state, const FrameInputs<Image>& inputs) {
+    const Gl& gl = *state.gl;
+    auto resolved = detail::resolveInputs(state.plan, inputs);
+    if (!resolved)
+        return resolved.error();
+    if (!state.passes.empty() && !gl.IsProgram(state.passes[0].program->program.name()))
+        return invalidArgument(
+            "the current OpenGL context is none, is lost, or does not know this program; the one that it was "
+            "compiled in was expected");
+    const StateGuard guard(gl, state.units);
+    gl.ActiveTexture(GL_TEXTURE0);
+    if (auto valid = checkImages(gl, state.plan, resolved->images, state.outputFormats); !valid)
+        return valid.error();
+
+    const DebugGroup group(gl, state.plan.technique);
+    uploadConstants(state, *resolved);
+    if (state.timer)
+        state.timer->beginFrame();
+    for (size_t i = 0; i < state.passes.size(); ++i) {
+        runPass(state, i, *resolved);
+        if (state.timer)
+            state.timer->endPass();
+        if (state.passCallback) {
+            gl.MemoryBarrier(barrierForHost);
+            state.passCallback(int(i));
+        }
+    }
+    if (state.timer)
+        state.timer->endFrame();
+    gl.MemoryBarrier(barrierForHost);
+    return {};
+}
+
 } // namespace
 
 Program::Program(std::unique_ptr<State> s) : state(std::move(s)) {}
@@ -118,36 +151,14 @@ const std::vector<PassTiming>& Program::timings() const {
 }
 
 Result<> Program::record(const FrameInputs<Image>& inputs) {
-    const Gl& gl = *state->gl;
-    auto resolved = detail::resolveInputs(state->plan, inputs);
-    if (!resolved)
-        return resolved.error();
-    if (!state->passes.empty() && !gl.IsProgram(state->passes[0].program->program.name()))
-        return invalidArgument(
-            "the current OpenGL context is none, or does not know this program; the one that it was "
-            "compiled in was expected");
-    const StateGuard guard(gl, state->units);
-    gl.ActiveTexture(GL_TEXTURE0);
-    if (auto valid = checkImages(gl, state->plan, resolved->images, state->outputFormats); !valid)
-        return valid.error();
-
-    const DebugGroup group(gl, state->plan.technique);
-    uploadConstants(*state, *resolved);
-    if (state->timer)
-        state->timer->beginFrame();
-    for (size_t i = 0; i < state->passes.size(); ++i) {
-        runPass(*state, i, *resolved);
-        if (state->timer)
-            state->timer->endPass();
-        if (state->passCallback) {
-            gl.MemoryBarrier(barrierForHost);
-            state->passCallback(int(i));
-        }
-    }
-    if (state->timer)
-        state->timer->endFrame();
-    gl.MemoryBarrier(barrierForHost);
-    return {};
+    constexpr const char* recording = "recording a frame";
+    if (auto present = state->gl->checkPresent(recording); !present)
+        return present;
+    auto recorded = recordFrame(*state, inputs);
+    // A context that was lost meanwhile knows no program and no texture, and the timer may have found out.
+    if (auto present = recorded ? state->gl->loss.check() : state->gl->checkPresent(recording); !present)
+        return present;
+    return recorded;
 }
 
 Result<unsigned> Program::transientTexture(std::string_view name) const {

@@ -64,7 +64,7 @@ Result<> bindTransients(State& s, const State* sharing) {
         if (!t.image) continue;
         const Resource& r = s.plan.resources[i];
         const VkDeviceSize offset = s.transientMemory->block.offset + s.transients.layout.offsets[i];
-        if (auto bound = check(d.vk.BindImageMemory(d.device, t.image, s.transientMemory->block.memory, offset),
+        if (auto bound = d.check(d.vk.BindImageMemory(d.device, t.image, s.transientMemory->block.memory, offset),
                                "binding memory to " + r.name);
             !bound)
             return bound;
@@ -73,7 +73,7 @@ Result<> bindTransients(State& s, const State* sharing) {
         info.viewType = VK_IMAGE_VIEW_TYPE_2D;
         info.format = vulkanFormat(r.format);
         info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        if (auto made = check(d.vk.CreateImageView(d.device, &info, nullptr, &t.view), "creating a view of " + r.name);
+        if (auto made = d.check(d.vk.CreateImageView(d.device, &info, nullptr, &t.view), "creating a view of " + r.name);
             !made)
             return made;
     }
@@ -86,7 +86,7 @@ Result<> createBuffer(State& s) {
     auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = s.bufferLayout.size;
     info.usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    if (auto made = check(d.vk.CreateBuffer(d.device, &info, nullptr, &s.buffer), "creating a buffer"); !made) return made;
+    if (auto made = d.check(d.vk.CreateBuffer(d.device, &info, nullptr, &s.buffer), "creating a buffer"); !made) return made;
     d.setName(VK_OBJECT_TYPE_BUFFER, handleBits(s.buffer), s.plan.technique + " buffers");
     MemoryRequest request;
     request.hostVisible = true;
@@ -99,7 +99,7 @@ Result<> createBuffer(State& s) {
         if (const Resource& r = s.plan.resources[i]; r.kind == ResourceKind::buffer)
             std::memcpy(static_cast<std::byte*>(s.bufferMemory->block.mapped) + s.bufferLayout.offsets[i], r.data.data(),
                         r.size);
-    return check(d.vk.BindBufferMemory(d.device, s.buffer, s.bufferMemory->block.memory, s.bufferMemory->block.offset),
+    return d.check(d.vk.BindBufferMemory(d.device, s.buffer, s.bufferMemory->block.memory, s.bufferMemory->block.offset),
                  "binding memory to a buffer");
 }
 
@@ -141,7 +141,7 @@ Result<> allocateSets(State& s) {
     pool.maxSets = setCount;
     pool.poolSizeCount = uint32_t(std::size(sizes));
     pool.pPoolSizes = sizes;
-    if (auto made = check(d.vk.CreateDescriptorPool(d.device, &pool, nullptr, &s.descriptorPool),
+    if (auto made = d.check(d.vk.CreateDescriptorPool(d.device, &pool, nullptr, &s.descriptorPool),
                           "creating a descriptor pool");
         !made)
         return made;
@@ -153,7 +153,7 @@ Result<> allocateSets(State& s) {
     info.descriptorPool = s.descriptorPool;
     info.descriptorSetCount = setCount;
     info.pSetLayouts = layouts.data();
-    return check(d.vk.AllocateDescriptorSets(d.device, &info, s.sets.data()), "allocating descriptor sets");
+    return d.check(d.vk.AllocateDescriptorSets(d.device, &info, s.sets.data()), "allocating descriptor sets");
 }
 
 // Everything but the host's images, which every frame brings anew.
@@ -193,7 +193,7 @@ Result<> createQueries(State& s) {
     auto info = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = uint32_t(s.passes.size() + 1) * uint32_t(s.framesInFlight);
-    return check(d.vk.CreateQueryPool(d.device, &info, nullptr, &s.queries), "creating a query pool");
+    return d.check(d.vk.CreateQueryPool(d.device, &info, nullptr, &s.queries), "creating a query pool");
 }
 
 } // namespace
@@ -208,6 +208,7 @@ Program::State::~State() {
 }
 
 Result<MemoryUse> Device::memoryUse(const Plan& plan, const CompileOptions& options) const {
+    if (auto present = shared->loss.check(); !present) return present.error();
     if (auto valid = checkPlan(*shared, plan, options); !valid) return valid.error();
     auto transients = createTransients(*shared, plan, options.inspectable);
     if (!transients) return transients.error();
@@ -220,6 +221,7 @@ Result<MemoryUse> Device::memoryUse(const Plan& plan, const CompileOptions& opti
 }
 
 Result<Program> Device::compile(const Plan& plan, const CompileOptions& options) const {
+    if (auto present = shared->loss.check(); !present) return present.error();
     if (auto valid = checkPlan(*shared, plan, options); !valid) return valid.error();
     auto state = std::make_unique<Program::State>();
     state->device = shared;

@@ -8,13 +8,14 @@
 namespace rebound::vulkan {
 namespace {
 
-const char* nameOf(VkResult result) {
+// The name of a result that says that something is short; null of others.
+const char* shortageOf(VkResult result) {
     switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
     case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
     case VK_ERROR_FRAGMENTED_POOL: return "VK_ERROR_FRAGMENTED_POOL";
+    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
     case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
     default: return nullptr;
     }
@@ -50,7 +51,7 @@ Result<> createSampler(Device::Shared& d) {
     // Kernels fetch texels; the sampler is there since the language's textures have one.
     auto info = structure<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    return check(d.vk.CreateSampler(d.device, &info, nullptr, &d.sampler), "creating a sampler");
+    return d.check(d.vk.CreateSampler(d.device, &info, nullptr, &d.sampler), "creating a sampler");
 }
 
 // FNV-1a, behind the driver's bytes: a file that was cut or spoilt is not for drivers, some of which trust it.
@@ -81,21 +82,19 @@ Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes, const 
     const auto stored = storedCache(bytes, properties);
     info.initialDataSize = stored.size();
     info.pInitialData = stored.data();
-    return check(d.vk.CreatePipelineCache(d.device, &info, nullptr, &d.cache), "creating a pipeline cache");
+    return d.check(d.vk.CreatePipelineCache(d.device, &info, nullptr, &d.cache), "creating a pipeline cache");
 }
 
 } // namespace
 
-Result<> check(VkResult result, const std::string& what) {
+Result<> Device::Shared::check(VkResult result, const std::string& what) const {
     if (result == VK_SUCCESS) return {};
-    const bool shortOfMemory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
-                               result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL ||
-                               result == VK_ERROR_TOO_MANY_OBJECTS;
-    const ErrorCode code = result == VK_ERROR_DEVICE_LOST ? ErrorCode::deviceLost
-                           : shortOfMemory                ? ErrorCode::outOfMemory
-                                                          : ErrorCode::unsupported;
-    const char* name = nameOf(result);
-    return Error{code, what + " failed with " + (name ? name : "VkResult " + std::to_string(int(result)))};
+    if (result == VK_ERROR_DEVICE_LOST)
+        return loss.note(what + " failed with VK_ERROR_DEVICE_LOST: the device is lost, and what was made with it can only be "
+                                "destroyed");
+    const char* name = shortageOf(result);
+    return Error{name ? ErrorCode::outOfMemory : ErrorCode::unsupported,
+                 what + " failed with " + (name ? name : "VkResult " + std::to_string(int(result)))};
 }
 
 Device::Shared::~Shared() {
@@ -150,15 +149,16 @@ Result<Device> Device::create(const DeviceOptions& options) {
 
 Result<std::vector<std::byte>> Device::pipelineCache() const {
     const Shared& d = *shared;
+    if (auto present = d.loss.check(); !present) return present.error();
     size_t size = 0;
-    if (auto asked = check(d.vk.GetPipelineCacheData(d.device, d.cache, &size, nullptr), "reading the pipeline cache");
+    if (auto asked = d.check(d.vk.GetPipelineCacheData(d.device, d.cache, &size, nullptr), "reading the pipeline cache");
         !asked)
         return asked.error();
     std::vector<std::byte> bytes(size);
     const VkResult result = d.vk.GetPipelineCacheData(d.device, d.cache, &size, bytes.data());
     // Incomplete: another thread has added to it in between; what was read is valid.
     if (result != VK_INCOMPLETE)
-        if (auto read = check(result, "reading the pipeline cache"); !read) return read.error();
+        if (auto read = d.check(result, "reading the pipeline cache"); !read) return read.error();
     bytes.resize(size);
     const uint64_t checksum = checksumOf(bytes);
     bytes.resize(size + sizeof checksum);

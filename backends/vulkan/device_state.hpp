@@ -3,6 +3,7 @@
 #pragma once
 
 #include "functions.hpp"
+#include "rebound/detail/loss.hpp"
 #include "rebound/vulkan/device.hpp"
 
 #include <array>
@@ -35,11 +36,15 @@ struct Device::Shared {
     std::mutex mutex;             // guards kernels
     std::map<const Shader*, Kernel> kernels;
 
+    mutable detail::Loss loss;
+
     Shared() = default;
     Shared(const Shared&) = delete;
     Shared& operator=(const Shared&) = delete;
     ~Shared();
 
+    // An error of a call that does what is said, or success. A lost device is lost from then on.
+    Result<> check(VkResult, const std::string& what) const;
     void setName(VkObjectType, uint64_t handle, const std::string&) const;
 };
 
@@ -48,9 +53,6 @@ uint64_t handleBits(Handle handle) {
     if constexpr (std::is_pointer_v<Handle>) return reinterpret_cast<uint64_t>(handle);
     else return uint64_t(handle);
 }
-
-// An error of a call, or success.
-Result<> check(VkResult, const std::string& what);
 
 constexpr VkDescriptorType descriptorType(BindingKind kind) {
     switch (kind) {

@@ -18,7 +18,7 @@ Result<> createSetLayout(const Device::Shared& d, const Shader& shader, Kernel& 
     auto info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     info.bindingCount = uint32_t(bindings.size());
     info.pBindings = bindings.data();
-    return check(d.vk.CreateDescriptorSetLayout(d.device, &info, nullptr, &kernel.setLayout),
+    return d.check(d.vk.CreateDescriptorSetLayout(d.device, &info, nullptr, &kernel.setLayout),
                  "creating the descriptor set layout of " + std::string(shader.name));
 }
 
@@ -29,7 +29,7 @@ Result<> createKernel(const Device::Shared& d, const Shader& shader, Kernel& ker
     moduleInfo.codeSize = shader.spirv.size_bytes();
     moduleInfo.pCode = shader.spirv.data();
     if (!kernel.module)
-        if (auto made = check(d.vk.CreateShaderModule(d.device, &moduleInfo, nullptr, &kernel.module),
+        if (auto made = d.check(d.vk.CreateShaderModule(d.device, &moduleInfo, nullptr, &kernel.module),
                               "creating the shader module of " + name);
             !made)
             return made;
@@ -39,7 +39,7 @@ Result<> createKernel(const Device::Shared& d, const Shader& shader, Kernel& ker
     layoutInfo.setLayoutCount = 1;
     layoutInfo.pSetLayouts = &kernel.setLayout;
     if (!kernel.layout)
-        if (auto made = check(d.vk.CreatePipelineLayout(d.device, &layoutInfo, nullptr, &kernel.layout),
+        if (auto made = d.check(d.vk.CreatePipelineLayout(d.device, &layoutInfo, nullptr, &kernel.layout),
                               "creating the pipeline layout of " + name);
             !made)
             return made;
@@ -61,7 +61,7 @@ Result<VkPipeline> createPipeline(const Device::Shared& d, const Shader& shader,
     info.stage.pSpecializationInfo = &specialization;
     info.layout = kernel.layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    if (auto made = check(d.vk.CreateComputePipelines(d.device, d.cache, 1, &info, nullptr, &pipeline),
+    if (auto made = d.check(d.vk.CreateComputePipelines(d.device, d.cache, 1, &info, nullptr, &pipeline),
                           "creating a pipeline of " + std::string(shader.name));
         !made)
         return made.error();

@@ -131,6 +131,7 @@ void Program::onPass(std::function<void(VkCommandBuffer, int)> callback) { state
 
 Result<> Program::record(VkCommandBuffer commands, int frame, const FrameInputs<Image>& inputs) {
     State& s = *state;
+    if (auto present = s.device->loss.check(); !present) return present;
     if (!commands) return invalidArgument("commands is null");
     if (auto valid = checkFrame(s, frame); !valid) return valid;
     auto resolved = detail::resolveInputs(s.plan, inputs);
@@ -158,6 +159,7 @@ Result<> Program::record(VkCommandBuffer commands, int frame, const FrameInputs<
 
 Result<std::vector<PassTiming>> Program::timings(int frame) const {
     const State& s = *state;
+    if (auto present = s.device->loss.check(); !present) return present.error();
     if (auto valid = checkFrame(s, frame); !valid) return valid.error();
     if (!s.queries || !s.measured[size_t(frame)]) return std::vector<PassTiming>{};
     const uint32_t count = uint32_t(s.passes.size() + 1);
@@ -166,7 +168,7 @@ Result<std::vector<PassTiming>> Program::timings(int frame) const {
                                                              count * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
                                                              VK_QUERY_RESULT_64_BIT);
     if (result == VK_NOT_READY) return std::vector<PassTiming>{};
-    if (auto read = check(result, "reading timestamps"); !read) return read.error();
+    if (auto read = s.device->check(result, "reading timestamps"); !read) return read.error();
     const uint64_t mask = s.device->timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << s.device->timestampBits) - 1;
     const double millisecondsPerTick = double(s.device->limits.timestampPeriod) * 1e-6;
     std::vector<PassTiming> timings;

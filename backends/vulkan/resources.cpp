@@ -32,26 +32,42 @@ std::optional<uint32_t> memoryTypeOf(const VkPhysicalDeviceMemoryProperties& typ
     return std::nullopt;
 }
 
-std::optional<MemoryBlock> allocateAlone(const Device::Shared& d, const MemoryRequest& request) {
+Error shortOf(VkDeviceSize bytes) {
+    return {ErrorCode::outOfMemory,
+            "the plan needs " + std::to_string(bytes) + " bytes of device memory, which could not be allocated"};
+}
+
+Result<MemoryBlock> allocateAlone(const Device::Shared& d, const MemoryRequest& request) {
+    const VkDeviceSize size = request.requirements.size;
     const auto type =
         request.hostVisible
             ? memoryTypeOf(d.memoryTypes, request.requirements.memoryTypeBits,
                            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                            VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
             : memoryTypeOf(d.memoryTypes, request.requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    if (!type) return std::nullopt;
+    if (!type) return shortOf(size);
     auto info = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
-    info.allocationSize = request.requirements.size;
+    info.allocationSize = size;
     info.memoryTypeIndex = *type;
     MemoryBlock block;
     block.memoryType = *type;
-    if (d.vk.AllocateMemory(d.device, &info, nullptr, &block.memory) != VK_SUCCESS) return std::nullopt;
-    if (request.hostVisible &&
-        d.vk.MapMemory(d.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped) != VK_SUCCESS) {
+    const std::string what = std::to_string(size) + " bytes of device memory";
+    if (auto allocated = d.check(d.vk.AllocateMemory(d.device, &info, nullptr, &block.memory), "allocating " + what);
+        !allocated)
+        return allocated.error();
+    if (!request.hostVisible) return block;
+    if (auto mapped = d.check(d.vk.MapMemory(d.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped), "mapping " + what);
+        !mapped) {
         d.vk.FreeMemory(d.device, block.memory, nullptr);
-        return std::nullopt;
+        return mapped.error();
     }
     return block;
+}
+
+Result<MemoryBlock> allocateByHost(const Device::Shared& d, const MemoryRequest& request) {
+    const std::optional<MemoryBlock> block = d.allocator.allocate(request);
+    if (!block || !block->memory) return shortOf(request.requirements.size);
+    return *block;
 }
 
 Result<> createImages(const Device::Shared& d, const Plan& plan, bool inspectable, Transients& transients) {
@@ -62,7 +78,7 @@ Result<> createImages(const Device::Shared& d, const Plan& plan, bool inspectabl
         if (r.kind != ResourceKind::transient || lives[i].last < 0) continue;
         TransientImage& t = transients.images[i];
         const VkImageCreateInfo info = imageInfo(r, inspectable);
-        if (auto made = check(d.vk.CreateImage(d.device, &info, nullptr, &t.image), "creating " + r.name); !made)
+        if (auto made = d.check(d.vk.CreateImage(d.device, &info, nullptr, &t.image), "creating " + r.name); !made)
             return made;
         d.setName(VK_OBJECT_TYPE_IMAGE, handleBits(t.image), plan.technique + ": " + r.name);
         d.vk.GetImageMemoryRequirements(d.device, t.image, &t.requirements);
@@ -89,17 +105,15 @@ OwnedMemory::~OwnedMemory() {
 
 Result<std::shared_ptr<OwnedMemory>> allocateMemory(const std::shared_ptr<const Device::Shared>& device,
                                                     const MemoryRequest& request) {
-    const auto block = device->allocator.allocate ? device->allocator.allocate(request) : allocateAlone(*device, request);
-    const std::string size = std::to_string(request.requirements.size) + " bytes";
-    if (!block || !block->memory)
-        return Error{ErrorCode::outOfMemory, "the plan needs " + size + " of device memory, which could not be allocated"};
+    const auto block = device->allocator.allocate ? allocateByHost(*device, request) : allocateAlone(*device, request);
+    if (!block) return block.error();
     auto memory = std::make_shared<OwnedMemory>();
     memory->device = device;
     memory->block = *block;
     memory->size = request.requirements.size;
     if ((request.hostVisible && !block->mapped) || block->offset % request.requirements.alignment != 0)
-        return invalidArgument("allocator: the block of " + size +
-                               " is not mapped, or its offset is no multiple of the alignment");
+        return invalidArgument("allocator: the block of " + std::to_string(memory->size) +
+                               " bytes is not mapped, or its offset is no multiple of the alignment");
     return memory;
 }
 

@@ -1,50 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Runs the built program, whose path is in the environment variable REBOUND_CLI.
+// Runs the command line, whose path is in the environment variable REBOUND_CLI.
 #pragma once
 
-#include "../lab/temporary_folder.hpp"
-
-#include <doctest/doctest.h>
-
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <string>
+#include "../tested_program.hpp"
 
 namespace rebound::cli {
 
-struct Outcome {
-    int exitCode = -1; // -1: it did not exit by itself
-    std::string output;
-    std::string errors;
-};
+using test::Outcome;
 
-// Arguments as a shell takes them; it runs within the folder, and what it prints is kept outside of it, or,
-// where a device is named, goes there.
+inline const test::TestedProgram program{"REBOUND_CLI", "rebound"};
+
 inline Outcome run(const std::string& arguments, const std::filesystem::path& folder,
                    const std::string& device = {}) {
-    const char* program = std::getenv("REBOUND_CLI");
-    REQUIRE_MESSAGE(program != nullptr, "REBOUND_CLI has to name the program");
-    const lab::TemporaryFolder printed;
-    const std::string output = device.empty() ? (printed / "output").string() : device;
-    const std::string command = "cd '" + folder.string() + "' && '" + program + "' " + arguments + " > '" +
-                                output + "' 2> '" + (printed / "errors").string() + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, lab::readText(printed / "output"),
-            lab::readText(printed / "errors")};
+    return program.run(arguments, folder, device);
 }
 
-// Exit code 2, nothing on standard output, and one line on standard error that holds each of the texts.
 inline void checkRefused(const Outcome& outcome, std::initializer_list<std::string> texts) {
-    CHECK(outcome.exitCode == 2);
-    CHECK(outcome.output.empty());
-    CHECK(outcome.errors.starts_with("rebound: "));
-    CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
-    for (const std::string& text : texts) {
-        INFO("it says: ", outcome.errors, " and should say: ", text);
-        CHECK(outcome.errors.find(text) != std::string::npos);
-    }
+    program.checkRefused(outcome, texts);
 }
 
 } // namespace rebound::cli

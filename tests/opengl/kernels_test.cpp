@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The unit tests' kernels on OpenGL, against the CPU one pixel at a time.
+#include "arithmetic_operands.hpp"
 #include "opengl_runner.hpp"
 #include "test_scene.hpp"
 
@@ -50,30 +51,9 @@ Plan accessPlan(int mode, Extent2D source, Extent2D grid, const AccessConstants&
     return plan;
 }
 
-struct Operands {
-    Picture x, y, z;
-};
-
-// Every pair of the values, and a third that cycles through them.
-Operands everyPair(const std::vector<float>& values) {
-    const int n = int(values.size());
-    const Extent2D extent{33, (n * n + 32) / 33};
-    Operands o{Picture(extent, 4), Picture(extent, 4), Picture(extent, 4)};
-    for (int i = 0; i < extent.width * extent.height; ++i)
-        for (int c = 0; c < 4; ++c) {
-            const size_t at = size_t(4 * i + c);
-            o.x.values[at] = values[size_t((i + c) % n)];
-            o.y.values[at] = values[size_t((i / n + 5 * c) % n)];
-            o.z.values[at] = values[size_t((i * 7 + 3 + c) % n)];
-        }
-    return o;
-}
-
 void checkArithmetic(const opengl::Device& device, int operation, Operands o, const Tolerance& tolerance) {
     CAPTURE(operation);
-    const GridConstants k{{o.x.extent.width, o.x.extent.height, 0, 0}};
-    const KernelCall call{"arithmetic",      {operation}, {{0, &o.x}, {1, &o.y}, {2, &o.z}},
-                          {{4, bytesOf(k)}}, 3,           o.x.extent};
+    const KernelCall call = arithmetic(operation, o);
     checkClose(runKernel(device, call), runKernel(cpu::Isa::scalar, call), tolerance);
 }
 
@@ -114,7 +94,8 @@ TEST_CASE("OpenGL reads images as the CPU does: every mode, inside and outside")
 
 TEST_CASE("OpenGL computes as the CPU does: what GLSL rounds correctly is the same to the bit") {
     const Operands o = everyPair({0.0f, 1.0f, -1.0f, 0.5f, 1.5f, -2.5f, 1e10f, -0.25f, 65504.0f, 0.1f, -7.75f,
-                                  99.999f, 8388607.5f, -4194304.5f, 1e-10f});
+                                  99.999f, 8388607.5f, -4194304.5f, 1e-10f},
+                                 4);
     inEachContext([&](host::OpenGLContext&) {
         const opengl::Device device = createDevice();
         const auto exact = [](size_t) { return 0.0; };
@@ -123,21 +104,17 @@ TEST_CASE("OpenGL computes as the CPU does: what GLSL rounds correctly is the sa
                        opAnd,        opOr,       opNot,      opMin,         opMax,          opAbs,
                        opFloor,      opClamp,    opSelect,   opVectorSelect})
             checkArithmetic(device, op, o, exact);
-        checkArithmetic(device, opIsFinite, everyPair({0.0f, 3e38f, infinity, -infinity, nan, -1.0f}), exact);
-        std::vector<float> integers;
-        for (int i = -9; i <= 9; ++i)
-            integers.push_back(float(i));
-        for (float v : {4096.0f, -4096.0f, 1000.0f, -1000.0f, 32767.0f, -2.9f, 2.9f, 12345.0f})
-            integers.push_back(v);
+        checkArithmetic(device, opIsFinite, everyPair({0.0f, 3e38f, infinity, -infinity, nan, -1.0f}, 4),
+                        exact);
         for (int op = opIntAdd; op <= opRoundTrip; ++op)
-            checkArithmetic(device, op, everyPair(integers), exact);
+            checkArithmetic(device, op, everyPair(wholeNumbers(), 4), exact);
     });
 }
 
 TEST_CASE("OpenGL computes as the CPU does: what GLSL leaves to the GPU, within GLSL's own bounds") {
     const std::vector<float> positive = {1e-10f, 0.1f,  0.25f,   0.3f,     1.0f,
                                          1.5f,   7.75f, 99.999f, 65504.0f, 1e10f};
-    const Operands o = everyPair(positive);
+    const Operands o = everyPair(positive, 4);
     inEachContext([&](host::OpenGLContext&) {
         const opengl::Device device = createDevice();
         // GLSL 4.60 and ES 3.20, 4.7.1: 2.5 units in the last place for a division, 2 for inversesqrt; sqrt
@@ -160,7 +137,7 @@ TEST_CASE("OpenGL computes as the CPU does: what GLSL leaves to the GPU, within 
         checkArithmetic(device, opMix, o, [&](size_t i) {
             return 3e-7 * (1.0 + double(o.z.values[i])) * double(o.x.values[i] + o.y.values[i]);
         });
-        const Operands small = everyPair({-2.75f, -1.0f, -0.25f, 0.0f, 0.5f, 1.25f, 2.5f});
+        const Operands small = everyPair({-2.75f, -1.0f, -0.25f, 0.0f, 0.5f, 1.25f, 2.5f}, 4);
         // Sums of up to 6 products of at most 8, and a length.
         checkArithmetic(device, opVectors, small, [](size_t) { return 48 * 3e-7; });
     });

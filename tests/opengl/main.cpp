@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
-#define DOCTEST_CONFIG_IMPLEMENT
-#include <doctest/doctest.h>
+#include "../device_main.hpp"
 
 #include "host/opengl_context.hpp"
-
-#include <cstdio>
 
 int main(int count, char** arguments) {
     using rebound::host::OpenGLApi;
     using rebound::host::OpenGLContext;
-    const auto desktop = OpenGLContext::create(OpenGLApi::desktop);
-    const auto es = OpenGLContext::create(OpenGLApi::es);
-    if (!desktop && !es) {
-        std::printf("skipped: EGL gives no OpenGL context: %s\n", desktop.error().message.c_str());
-        return 77;
-    }
-    return doctest::Context(count, arguments).run();
+    std::string why = rebound::test::whyMissing(OpenGLContext::create(OpenGLApi::desktop));
+    if (!why.empty() && OpenGLContext::create(OpenGLApi::es))
+        why.clear(); // one of the two is enough
+    return rebound::test::runUnlessMissing(why, count, arguments);
 }

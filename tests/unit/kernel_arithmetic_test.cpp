@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Arithmetic of the kernel language, in every instruction set, against the host's.
-#include "kernel_runner.hpp"
+#include "arithmetic_operands.hpp"
 
 #include <cmath>
 #include <functional>
@@ -12,29 +12,8 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-struct Operands {
-    Picture x, y, z;
-};
-
-// Every pair of the values, and a third that cycles through them, in an image 33 texels wide: lanes meet its
-// side.
-Operands everyPair(const std::vector<float>& values) {
-    const int n = int(values.size());
-    const Extent2D extent{33, (n * n + 32) / 33};
-    Operands o{Picture(extent, 1), Picture(extent, 1), Picture(extent, 1)};
-    for (int i = 0; i < extent.width * extent.height; ++i) {
-        o.x.values[size_t(i)] = values[size_t(i % n)];
-        o.y.values[size_t(i)] = values[size_t(i / n % n)];
-        o.z.values[size_t(i)] = values[size_t((i * 7 + 3) % n)];
-    }
-    return o;
-}
-
 Picture arithmetic(cpu::Isa isa, int operation, Operands& o) {
-    const Extent2D extent = o.x.extent;
-    const GridConstants k{{extent.width, extent.height, 0, 0}};
-    return runKernel(
-        isa, {"arithmetic", {operation}, {{0, &o.x}, {1, &o.y}, {2, &o.z}}, {{4, bytesOf(k)}}, 3, extent});
+    return runKernel(isa, arithmetic(operation, o));
 }
 
 std::vector<float> hardValues() {
@@ -120,12 +99,7 @@ TEST_CASE("Real: functions that are exact or rounded once") {
 }
 
 TEST_CASE("Int: every operator") {
-    std::vector<float> values;
-    for (int i = -9; i <= 9; ++i)
-        values.push_back(float(i));
-    for (float v : {4096.0f, -4096.0f, 1000.0f, -1000.0f, 32767.0f, -2.9f, 2.9f, 12345.0f})
-        values.push_back(v);
-    const Operands o = everyPair(values);
+    const Operands o = everyPair(wholeNumbers());
     auto integer = [](auto f) {
         return Function([f](float x, float y, float) { return float(f(int(x), int(y))); });
     };
@@ -175,12 +149,7 @@ TEST_CASE("mix: from the first to the second operand") {
 }
 
 TEST_CASE("vectors: GLSL's functions") {
-    Operands o{Picture({17, 3}, 4), Picture({17, 3}, 4), Picture({17, 3}, 4)};
-    for (size_t i = 0; i < o.x.values.size(); ++i) {
-        o.x.values[i] = float(int(i * 5 % 23) - 11) / 4.0f;
-        o.y.values[i] = float(int(i * 7 % 19) - 9) / 8.0f;
-        o.z.values[i] = float(int(i % 3) - 1);
-    }
+    Operands o = exactVectors();
     for (cpu::Isa isa : cpu::availableIsas()) {
         const Picture result = arithmetic(isa, opVectors, o);
         const Picture selected = arithmetic(isa, opVectorSelect, o);

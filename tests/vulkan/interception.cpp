@@ -6,7 +6,12 @@
 namespace rebound::test {
 namespace {
 
-bool mustFail() { return interception().calls++ == interception().failAt; }
+// The error of a call that is to fail.
+std::optional<VkResult> failureOf(const char* function, VkResult shortage = VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+    if (interception().calls++ != interception().failAt) return std::nullopt;
+    interception().failed = function;
+    return interception().failure.value_or(shortage);
+}
 
 VkResult counted(VkResult result) {
     if (result == VK_SUCCESS) ++interception().alive;
@@ -33,7 +38,7 @@ VkResult counted(VkResult result) {
 #define REBOUND_DEFINE_PAIR(T)                                                                                         \
     VKAPI_ATTR VkResult VKAPI_CALL Create##T(VkDevice device, const Vk##T##CreateInfo* info,                           \
                                              const VkAllocationCallbacks* allocator, Vk##T* object) {                  \
-        if (mustFail()) return VK_ERROR_OUT_OF_DEVICE_MEMORY;                                                          \
+        if (const auto failure = failureOf("vkCreate" #T)) return *failure;                                            \
         return counted(vkCreate##T(device, info, allocator, object));                                                  \
     }                                                                                                                  \
     REBOUND_DEFINE_DESTROY(T)
@@ -43,7 +48,7 @@ REBOUND_DEFINE_DESTROY(PipelineCache)
 
 VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info,
                                                    const VkAllocationCallbacks* allocator, VkPipelineCache* cache) {
-    if (mustFail()) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (const auto failure = failureOf("vkCreatePipelineCache")) return *failure;
     interception().cacheSize = info->initialDataSize;
     return counted(vkCreatePipelineCache(device, info, allocator, cache));
 }
@@ -51,7 +56,7 @@ VKAPI_ATTR VkResult VKAPI_CALL CreatePipelineCache(VkDevice device, const VkPipe
 VKAPI_ATTR VkResult VKAPI_CALL CreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* infos,
                                                       const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
-    if (mustFail()) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (const auto failure = failureOf("vkCreateComputePipelines")) return *failure;
     const VkResult result = vkCreateComputePipelines(device, cache, count, infos, allocator, pipelines);
     if (result == VK_SUCCESS) interception().alive += int(count);
     return result;
@@ -59,7 +64,7 @@ VKAPI_ATTR VkResult VKAPI_CALL CreateComputePipelines(VkDevice device, VkPipelin
 
 VKAPI_ATTR VkResult VKAPI_CALL AllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
                                               const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
-    if (mustFail()) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (const auto failure = failureOf("vkAllocateMemory")) return *failure;
     return counted(vkAllocateMemory(device, info, allocator, memory));
 }
 
@@ -70,22 +75,37 @@ VKAPI_ATTR void VKAPI_CALL FreeMemory(VkDevice device, VkDeviceMemory memory, co
 
 VKAPI_ATTR VkResult VKAPI_CALL AllocateDescriptorSets(VkDevice device, const VkDescriptorSetAllocateInfo* info,
                                                       VkDescriptorSet* sets) {
-    return mustFail() ? VK_ERROR_OUT_OF_POOL_MEMORY : vkAllocateDescriptorSets(device, info, sets);
+    if (const auto failure = failureOf("vkAllocateDescriptorSets", VK_ERROR_OUT_OF_POOL_MEMORY)) return *failure;
+    return vkAllocateDescriptorSets(device, info, sets);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL BindBufferMemory(VkDevice device, VkBuffer buffer, VkDeviceMemory memory,
                                                 VkDeviceSize offset) {
-    return mustFail() ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkBindBufferMemory(device, buffer, memory, offset);
+    if (const auto failure = failureOf("vkBindBufferMemory")) return *failure;
+    return vkBindBufferMemory(device, buffer, memory, offset);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL BindImageMemory(VkDevice device, VkImage image, VkDeviceMemory memory,
                                                VkDeviceSize offset) {
-    return mustFail() ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkBindImageMemory(device, image, memory, offset);
+    if (const auto failure = failureOf("vkBindImageMemory")) return *failure;
+    return vkBindImageMemory(device, image, memory, offset);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL MapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
                                          VkMemoryMapFlags flags, void** mapped) {
-    return mustFail() ? VK_ERROR_OUT_OF_HOST_MEMORY : vkMapMemory(device, memory, offset, size, flags, mapped);
+    if (const auto failure = failureOf("vkMapMemory", VK_ERROR_OUT_OF_HOST_MEMORY)) return *failure;
+    return vkMapMemory(device, memory, offset, size, flags, mapped);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL GetPipelineCacheData(VkDevice device, VkPipelineCache cache, size_t* size, void* data) {
+    if (const auto failure = failureOf("vkGetPipelineCacheData")) return *failure;
+    return vkGetPipelineCacheData(device, cache, size, data);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL GetQueryPoolResults(VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count,
+                                                   size_t size, void* data, VkDeviceSize stride, VkQueryResultFlags flags) {
+    if (const auto failure = failureOf("vkGetQueryPoolResults")) return *failure;
+    return vkGetQueryPoolResults(device, pool, first, count, size, data, stride, flags);
 }
 
 VKAPI_ATTR void VKAPI_CALL GetImageMemoryRequirements(VkDevice device, VkImage image, VkMemoryRequirements* needs) {
@@ -112,7 +132,8 @@ PFN_vkVoidFunction VKAPI_CALL interceptedDeviceProcAddr(VkDevice device, const c
         REBOUND_COUNTED_OBJECTS(REBOUND_ENTRIES) REBOUND_ENTRY(CreatePipelineCache) REBOUND_ENTRY(DestroyPipelineCache)
             REBOUND_ENTRY(CreateComputePipelines) REBOUND_ENTRY(DestroyPipeline) REBOUND_ENTRY(AllocateMemory)
                 REBOUND_ENTRY(FreeMemory) REBOUND_ENTRY(AllocateDescriptorSets) REBOUND_ENTRY(BindBufferMemory)
-                    REBOUND_ENTRY(BindImageMemory) REBOUND_ENTRY(MapMemory) REBOUND_ENTRY(GetImageMemoryRequirements)};
+                    REBOUND_ENTRY(BindImageMemory) REBOUND_ENTRY(MapMemory) REBOUND_ENTRY(GetImageMemoryRequirements)
+                        REBOUND_ENTRY(GetPipelineCacheData) REBOUND_ENTRY(GetQueryPoolResults)};
     if (name == interception().missing) return nullptr;
     const auto found = functions.find(name);
     return found != functions.end() ? found->second : vkGetDeviceProcAddr(device, name);

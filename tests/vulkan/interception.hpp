@@ -6,6 +6,7 @@
 #include <vulkan/vulkan.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace rebound::test {
@@ -13,7 +14,9 @@ namespace rebound::test {
 struct Interception {
     int alive = 0;              // objects created and not destroyed, blocks of memory among them
     int calls = 0;              // that can fail, so far
-    int failAt = -1;            // the number of the call that is to fail for want of memory; -1: none
+    int failAt = -1;            // the number of the call that is to fail; -1: none
+    std::optional<VkResult> failure; // that it fails with; empty: want of memory
+    std::string failed;         // the function that failed last
     std::string missing;        // a function that the loader does not know
     size_t cacheSize = 0;       // bytes that the last pipeline cache was begun with
     std::function<void(VkPhysicalDeviceProperties&)> changeProperties;

@@ -1,3 +1,11 @@
 // SPDX-License-Identifier: MIT
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
-#include <doctest/doctest.h>
+#include "../device_main.hpp"
+
+#include "host/vulkan_context.hpp"
+
+int main(int count, char** arguments) {
+    rebound::host::VulkanOptions options;
+    options.validation = true;
+    const std::string why = rebound::test::whyMissing(rebound::host::VulkanContext::create(options));
+    return rebound::test::runUnlessMissing(why, count, arguments);
+}

@@ -43,9 +43,8 @@ std::unique_ptr<VulkanHost> VulkanHost::open() {
     host::VulkanOptions options;
     options.validation = true;
     auto context = host::VulkanContext::create(options);
-    if (context) return std::unique_ptr<VulkanHost>(new VulkanHost(*std::move(context)));
-    MESSAGE("skipped: ", context.error().message);
-    return nullptr;
+    REQUIRE_MESSAGE(context, (context ? "" : context.error().message));
+    return std::unique_ptr<VulkanHost>(new VulkanHost(*std::move(context)));
 }
 
 VulkanHost::~VulkanHost() {
@@ -154,6 +153,12 @@ Picture shifted(const Picture& picture, ivec2 offset) {
         for (int x = 0; x < picture.extent.width; ++x)
             for (int c = 0; c < 4; ++c) result.at(x, y, c) = picture.reach(x + offset.x, y + offset.y, c);
     return result;
+}
+
+bool runsRight(const VulkanHost& host, const vulkan::Device& device) {
+    const Extent2D extent{20, 5};
+    return runOnVulkan(host, device, copyPlan(extent), {{"host", numbered(extent)}}, {accessConstants(extent)}).values ==
+           shifted(numbered(extent), {2, 1}).values;
 }
 
 } // namespace rebound::test

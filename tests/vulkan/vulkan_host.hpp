@@ -15,7 +15,6 @@
 
 namespace rebound::test {
 
-// Where Vulkan or its validation layer is missing, null, and a message that says so.
 class VulkanHost {
 public:
     static std::unique_ptr<VulkanHost> open();
@@ -59,5 +58,7 @@ Plan copyPlan(Extent2D, int mode = accessOffset);
 NamedConstants accessConstants(Extent2D, ivec2 offset = {2, 1}, int shift = 0, int bias = 0);
 // What accessOffset makes of a picture.
 Picture shifted(const Picture&, ivec2 offset);
+// Whether a device makes of copyPlan() what it should.
+bool runsRight(const VulkanHost&, const vulkan::Device&);
 
 } // namespace rebound::test

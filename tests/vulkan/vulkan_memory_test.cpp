@@ -64,11 +64,6 @@ vulkan::Device deviceWith(const VulkanHost& host, CountingAllocator& allocator) 
     return host.device(options);
 }
 
-bool runsRight(const VulkanHost& host, const vulkan::Device& device) {
-    return runOnVulkan(host, device, copyPlan(extent), {{"host", numbered(extent)}}, {accessConstants(extent)}).values ==
-           shifted(numbered(extent), {2, 1}).values;
-}
-
 Plan screenPlan(Extent2D e) {
     const auto settings = screenIndirectPreset("half-64", e);
     REQUIRE(settings);
@@ -81,7 +76,6 @@ Plan screenPlan(Extent2D e) {
 
 TEST_CASE("memory use is told before compiling, and is what is asked of the engine's allocator") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     for (Extent2D e : {Extent2D{1, 1}, Extent2D{20, 5}, Extent2D{333, 111}}) {
         CountingAllocator allocator(*host);
         const vulkan::Device device = deviceWith(*host, allocator);
@@ -107,7 +101,6 @@ TEST_CASE("memory use is told before compiling, and is what is asked of the engi
 
 TEST_CASE("an engine's allocator is used for everything, from the offsets it gives, and gets all of it back") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     CountingAllocator allocator(*host);
     {
         const vulkan::Device device = deviceWith(*host, allocator);
@@ -126,7 +119,6 @@ TEST_CASE("an engine's allocator is used for everything, from the offsets it giv
 
 TEST_CASE("out of memory: an error, nothing leaks, and the device works on") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     CountingAllocator allocator(*host);
     const vulkan::Device device = deviceWith(*host, allocator);
     for (int refused : {0, 1}) {
@@ -147,7 +139,6 @@ TEST_CASE("out of memory: an error, nothing leaks, and the device works on") {
 
 TEST_CASE("blocks that do not suit are refused, and given back") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     CountingAllocator allocator(*host);
     const vulkan::Device device = deviceWith(*host, allocator);
     for (bool CountingAllocator::* fault : {&CountingAllocator::unmapped, &CountingAllocator::misaligned}) {
@@ -163,7 +154,6 @@ TEST_CASE("blocks that do not suit are refused, and given back") {
 
 TEST_CASE("whichever call fails while a plan is compiled, it is reported, and nothing leaks") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     vulkan::DeviceOptions options = host->options();
     options.timings = true;
     const Plan plan = screenPlan({64, 48});
@@ -188,7 +178,6 @@ TEST_CASE("whichever call fails while a plan is compiled, it is reported, and no
 
 TEST_CASE("views of different sizes share transients, the largest first") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     CountingAllocator allocator(*host);
     const vulkan::Device device = deviceWith(*host, allocator);
     const Extent2D largeExtent{70, 40}, smallExtent{33, 21};
@@ -222,7 +211,6 @@ TEST_CASE("views of different sizes share transients, the largest first") {
 
 TEST_CASE("transients that are too small, or that do not suit, are not shared") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     CountingAllocator allocator(*host);
     const vulkan::Device device = deviceWith(*host, allocator);
     auto small = device.compile(copyPlan(extent));
@@ -256,7 +244,6 @@ TEST_CASE("transients that are too small, or that do not suit, are not shared") 
 
 TEST_CASE("recompiling at other sizes frees what was, and keeps the pipelines") {
     const auto host = VulkanHost::open();
-    if (!host) return;
     CountingAllocator allocator(*host);
     const vulkan::Device device = deviceWith(*host, allocator);
     Frame scene = sceneFrame({}, {16, 16});

@@ -11,14 +11,10 @@
 
 namespace rebound::engine {
 
-// Null, and a message that says so, where Vulkan or its validation layer is missing.
-inline std::unique_ptr<host::VulkanContext> openContext() {
+inline host::VulkanContext openContext() {
     host::VulkanOptions options;
     options.validation = true;
-    auto context = host::VulkanContext::create(options);
-    if (context) return std::make_unique<host::VulkanContext>(*std::move(context));
-    MESSAGE("skipped: ", context.error().message);
-    return nullptr;
+    return require(host::VulkanContext::create(options));
 }
 
 inline void checkSilence(const host::VulkanContext& context) {

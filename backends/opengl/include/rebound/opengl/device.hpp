@@ -32,11 +32,12 @@ struct DeviceOptions {
 class Program;
 
 // Every call, and the end of every program, needs the host's context to be current, or one that shares its
-// objects.
+// objects. Where that context tells of a GPU's reset, the first call that finds out fails with deviceLost, and
+// all later ones do at once, with the same words, and issue nothing. Programs can still be destroyed.
 class Device {
 public:
-    // Fails where no context is current, it is older than OpenGL 4.3 or OpenGL ES 3.1, or the loader lacks a
-    // function.
+    // Fails where no context is current, it is lost, it is older than OpenGL 4.3 or OpenGL ES 3.1, or the
+    // loader lacks a function.
     static Result<Device> create(const DeviceOptions&);
 
     // Fails where the plan is not valid, names a kernel, slot, feature or format that does not exist, exceeds
@@ -65,7 +66,7 @@ public:
     Result<> record(const FrameInputs<Image>&);
 
     // Of the latest frame that the GPU has finished, a pass each in the plan's order; empty before that, and
-    // where Device::hasTimings() is false. Never waits.
+    // where Device::hasTimings() is false; what they were before, once the context is lost. Never waits.
     const std::vector<PassTiming>& timings() const;
 
     const Plan& plan() const;

@@ -57,6 +57,8 @@ struct CompileOptions {
     bool inspectable = false;             // transients can be copied from and to: see transientImage()
 };
 
+// Once a call has failed with deviceLost, every call of this device and of its programs that can fail does at once, with
+// the same words, and calls nothing of Vulkan: destroy all of them, which is safe, and the host's device.
 class Device {
 public:
     // Fails where a handle is null, or the device or the queue family cannot do what Rebound needs.
