@@ -23,3 +23,10 @@ function(rebound_target_options target)
         target_link_options(${target} PUBLIC -fsanitize=${REBOUND_SANITIZE})
     endif()
 endfunction()
+
+# For targets that are compiled for longer than they run: what takes their time is in other libraries.
+function(rebound_optimise_little target)
+    if(NOT MSVC)
+        target_compile_options(${target} PRIVATE -O1)
+    endif()
+endfunction()

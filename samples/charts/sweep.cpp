@@ -40,6 +40,10 @@ void assign(measure::SettingsDraft& draft, const std::string& key, const Value& 
         draft.reduction = textOf(value, where);
     else if (key == "form_factor")
         draft.formFactor = textOf(value, where);
+    else if (key == "smooth")
+        draft.smooth = textOf(value, where);
+    else if (key == "cover_screen")
+        draft.coverScreen = textOf(value, where);
     else if (key == "radius")
         draft.radius = radiusText(value, where);
     else if (key == "levels")
@@ -53,7 +57,8 @@ void assign(measure::SettingsDraft& draft, const std::string& key, const Value& 
 // Every combination of an object's arrays.
 std::vector<measure::SettingsDraft> draftsOf(const Value& object, const std::string& where) {
     checkKeys(object, where,
-              {"preset", "start", "levels", "samples", "radius", "reduce", "form_factor", "minimum_cosine"});
+              {"preset", "start", "levels", "samples", "radius", "reduce", "form_factor", "minimum_cosine",
+               "cover_screen", "smooth"});
     std::vector<measure::SettingsDraft> drafts = {{}};
     for (const auto& [key, value] : object.items()) {
         const std::string place = where + "." + key;
@@ -181,6 +186,10 @@ std::string nameOfSettings(const ScreenIndirectSettings& s) {
         name += " radius " + number(s.ringRadius);
     if (usual && s.minimumCosine != usual->minimumCosine)
         name += " minimum cosine " + number(s.minimumCosine);
+    if (!s.coverScreen)
+        name += " not covering";
+    if (!s.smooth)
+        name += " not smoothed";
     return name;
 }
 

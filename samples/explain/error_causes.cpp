@@ -143,6 +143,9 @@ struct Runs {
     Image result, allSamples, startSum, fullSum;
 };
 
+// The part of the progress that runs of the technique stand for; sums over all pixels of large pictures take longer.
+constexpr double techniqueShare = 0.2;
+
 Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options) {
     runner::BackendChoice cpu;
     cpu.threads = options.threads;
@@ -161,6 +164,7 @@ Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options
     full.start = StartResolution::full;
     full.smooth = false;
     Runs runs;
+    int done = 0;
     for (auto [image, settings, allTexels] :
          {std::tuple{&runs.result, given, false}, std::tuple{&runs.allSamples, given, true},
           std::tuple{&runs.startSum, oneLevel, true}, std::tuple{&runs.fullSum, full, true}}) {
@@ -168,6 +172,8 @@ Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options
         if (!run)
             return run.error();
         *image = *std::move(run);
+        if (options.progress)
+            options.progress(techniqueShare * double(++done) / 4.0);
     }
     return runs;
 }
@@ -232,8 +238,12 @@ Result<Explanation> explainError(const lab::Scene& scene, const lab::CameraView&
     auto runs = runTechnique(*frame, options);
     if (!runs)
         return runs.error();
+    const lab::Progress progress = [&](double share) {
+        if (options.progress)
+            options.progress(techniqueShare + (1.0 - techniqueShare) * share);
+    };
     auto screen = estimateFromScreen(
-        scene, camera, {extent, options.bounces, options.samples, options.threads, options.progress});
+        scene, camera, {extent, options.bounces, options.samples, options.threads, progress});
     if (!screen)
         return screen.error();
     return assemble(*std::move(runs), *std::move(screen), frame->depth);

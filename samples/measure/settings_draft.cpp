@@ -19,6 +19,7 @@ constexpr std::pair<const char*, Reduction> reductionNames[] = {{"nearest", Redu
                                                                 {"voting", Reduction::voting}};
 constexpr std::pair<const char*, FormFactor> formFactorNames[] = {{"disc", FormFactor::pointToDisc},
                                                                   {"point", FormFactor::pointToPoint}};
+constexpr std::pair<const char*, bool> switchNames[] = {{"on", true}, {"off", false}};
 constexpr std::pair<const char*, runner::Precision> precisionNames[] = {{"half", runner::Precision::half},
                                                                         {"float", runner::Precision::single}};
 
@@ -120,6 +121,10 @@ Result<ScreenIndirectSettings> settingsOf(const SettingsDraft& draft, Extent2D r
     if (auto set = replace<FormFactor>(settings.formFactor, called("form-factor"), draft.formFactor,
                                        formFactorNames);
         !set)
+        return set.error();
+    if (auto set = replace<bool>(settings.smooth, called("smooth"), draft.smooth, switchNames); !set)
+        return set.error();
+    if (auto set = replace<bool>(settings.coverScreen, called("cover-screen"), draft.coverScreen, switchNames); !set)
         return set.error();
     settings.levels = draft.levels.value_or(settings.levels);
     settings.samplesPerLevel = draft.samples.value_or(settings.samplesPerLevel);

@@ -13,7 +13,7 @@ namespace rebound::measure {
 // What is absent is the preset's.
 struct SettingsDraft {
     std::string preset = "quarter-64";
-    std::optional<std::string> start, radius, reduction, formFactor;
+    std::optional<std::string> start, radius, reduction, formFactor, smooth, coverScreen;
     std::optional<int> levels, samples, onlyLevel;
     std::optional<float> minimumCosine;
 };

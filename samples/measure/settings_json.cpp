@@ -15,6 +15,8 @@ Json settingsToJson(const ScreenIndirectSettings& s, const std::string& preset) 
     json["reduction"] = nameOf(s.reduction);
     json["form_factor"] = nameOf(s.formFactor);
     json["minimum_cosine"] = s.minimumCosine;
+    json["cover_screen"] = s.coverScreen;
+    json["smooth"] = s.smooth;
     json["only_level"] = s.onlyLevel ? Json(*s.onlyLevel) : Json(nullptr);
     return json;
 }

@@ -86,6 +86,13 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
                    "a pixel's area is taken as if seen at no less, 0.001 to 1 (presets: 0.05)")
         ->option_text("C")
         ->group(techniqueGroup);
+    app.add_option("--cover-screen", o.coverScreen,
+                   "the outermost ring reaches the screen's corners, or ends at its radius: on or off\n(presets: on)")
+        ->option_text("SWITCH")
+        ->group(techniqueGroup);
+    app.add_option("--smooth", o.smooth, "a 3x3 filter at the start resolution: on or off (presets: on)")
+        ->option_text("SWITCH")
+        ->group(techniqueGroup);
     app.add_option("--only-level", o.onlyLevel,
                    "show what this level alone contributes, 0 to levels - 1 (default: all)")
         ->option_text("K")

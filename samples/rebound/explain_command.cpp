@@ -3,6 +3,7 @@
 #include "explain/error_causes.hpp"
 #include "frame_source.hpp"
 #include "lab/output_file.hpp"
+#include "memory_check.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
@@ -22,6 +23,11 @@ namespace rebound::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The frame takes 52, results on the way to the truth and their differences 25 images of 12, a plan at full resolution 100,
+// pictures of all of it 60.
+constexpr double bytesPerPixel = 520.0;
+
 using explain::Cause;
 using explain::Explanation;
 
@@ -152,6 +158,8 @@ Result<> explainScene(const ExplainCommandOptions& options) {
         return valid.error();
     if (options.bounces < 1)
         return invalidArgument("--bounces is 0; 1 to 64 was expected");
+    if (auto enough = checkMemory(*extent, bytesPerPixel); !enough)
+        return enough;
     if (!options.out.empty())
         if (auto writable = checkOutputFolder(options.out); !writable)
             return writable;
@@ -165,7 +173,7 @@ Result<> explainScene(const ExplainCommandOptions& options) {
     explaining.samples = options.samples;
     explaining.threads = options.threads;
     const auto explanation = [&] {
-        ProgressLine line("tracing paths");
+        ProgressLine line("switching causes to truth");
         explaining.progress = [&line](double share) { line.update(share); };
         return explain::explainError(view->scene, view->camera, explaining);
     }();

@@ -15,15 +15,11 @@ constexpr double bytesPerPixel = 200.0;
 
 } // namespace
 
-Result<> checkMemory(const runner::Backend& backend, const Plan& plan, Extent2D size) {
-    const auto use = backend.memoryUse(plan);
-    if (!use)
-        return use.error();
+Result<> checkMemory(Extent2D size, double perPixel, double furtherBytes) {
     const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
     if (pages <= 0 || pageSize <= 0)
         return {};
-    const double needed =
-        bytesPerPixel * double(size.width) * double(size.height) + double(use->total());
+    const double needed = perPixel * double(size.width) * double(size.height) + furtherBytes;
     const double available = double(pages) * double(pageSize);
     if (needed <= available)
         return {};
@@ -32,6 +28,13 @@ Result<> checkMemory(const runner::Backend& backend, const Plan& plan, Extent2D 
                   "--size is %dx%d, which takes about %.0f GB; this machine has %.0f GB", size.width,
                   size.height, needed / 1e9, available / 1e9);
     return Error{ErrorCode::outOfMemory, message};
+}
+
+Result<> checkMemory(const runner::Backend& backend, const Plan& plan, Extent2D size) {
+    const auto use = backend.memoryUse(plan);
+    if (!use)
+        return use.error();
+    return checkMemory(size, bytesPerPixel, double(use->total()));
 }
 
 } // namespace rebound::cli

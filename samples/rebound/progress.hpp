@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A line on a terminal that says how far a long step is.
+// A line on a terminal that says how far a long step is, and how long it still takes.
 #pragma once
 
 #include <chrono>
@@ -25,9 +25,13 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    std::string timeLeft(double share) const;
+
     std::string what;
     bool isTerminal;
-    Clock::time_point next; // no line before
+    Clock::time_point next;  // no line before
+    Clock::time_point began; // the first update
+    double beganAt = -1.0;   // the share that was done then; below 0: there was none yet
     bool shown = false;
 };
 

@@ -6,6 +6,7 @@
 #include "lab/image_files.hpp"
 #include "lab/output_file.hpp"
 #include "lab/reference_cache.hpp"
+#include "memory_check.hpp"
 #include "measure/named_values.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
@@ -23,6 +24,9 @@ namespace rebound::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The paths' sums take 216, twice while they are written; the frame 52, light 88, pictures of it and files 150.
+constexpr double bytesPerPixel = 730.0;
 
 constexpr std::pair<const char*, lab::GlossyModel> glossyNames[] = {
     {"none", lab::GlossyModel::diffuseOnly},
@@ -182,6 +186,8 @@ Result<> renderReference(const SourceOptions& source, const std::string& size, i
     const auto options = pathTracerOptionsOf(reference, *extent, threads);
     if (!options)
         return options.error();
+    if (auto enough = checkMemory(*extent, bytesPerPixel); !enough)
+        return enough;
     if (auto writable = checkOutputFolder(out); !writable)
         return writable;
     const auto view = loadView(source);

@@ -29,6 +29,10 @@ std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings
             formatted("ring radius %g texels, ", double(s.ringRadius)) + nameOf(s.reduction) +
             ", form factor " + nameOf(s.formFactor) +
             formatted(", minimum cosine %g", double(s.minimumCosine));
+    if (!s.coverScreen)
+        text += ", not covering the screen";
+    if (!s.smooth)
+        text += ", not smoothed";
     if (s.onlyLevel)
         text += ", only level " + std::to_string(*s.onlyLevel);
     return text + "\n";

@@ -37,7 +37,7 @@ TEST_CASE("arrays mean every combination, and what comes to the same is taken on
 TEST_CASE("a sweep's values reach the settings") {
     const auto sweep = parseSweep(R"({"techniques": {"screen_indirect": [
         {"start": "full", "levels": 3, "samples": 8, "radius": 12.5, "reduce": "nearest", "form_factor": "point",
-         "minimum_cosine": 0.25}, {"radius": "auto"}]},
+         "minimum_cosine": 0.25, "cover_screen": "off", "smooth": "off"}, {"radius": "auto"}]},
         "backends": ["scalar", "cpu"],
         "scenes": ["builtin:cornell", {"scene": "hall.gltf", "view": "night.json", "cameras": ["door", "stage"]}],
         "size": "320x200", "frames": 7, "warm_up": 0, "reference": {"bounces": 8, "samples": 32, "error": 0}})",
@@ -52,7 +52,10 @@ TEST_CASE("a sweep's values reach the settings") {
     CHECK(settings.reduction == Reduction::nearest);
     CHECK(settings.formFactor == FormFactor::pointToPoint);
     CHECK(settings.minimumCosine == 0.25f);
-    CHECK(sweep->settings[0].name == "full-8-3 nearest form factor point radius 12.5 minimum cosine 0.25");
+    CHECK(!settings.coverScreen);
+    CHECK(!settings.smooth);
+    CHECK(sweep->settings[0].name == "full-8-3 nearest form factor point radius 12.5 minimum cosine 0.25 "
+                                     "not covering not smoothed");
     CHECK(sweep->settings[1].settings.ringRadius == coveringRingRadius(sweep->settings[1].settings));
     CHECK(sweep->backends == std::vector<std::string>{"scalar", "cpu"});
     REQUIRE(sweep->scenes.size() == 2);

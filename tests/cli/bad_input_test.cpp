@@ -36,6 +36,8 @@ TEST_CASE("bad arguments are refused in one sentence, and leave nothing behind")
         {"render --radius 0.5", {"--radius", "1024"}},
         {"render --radius nan", {"--radius", "nan"}},
         {"render --radius wide", {"--radius", "wide", "auto"}},
+        {"render --smooth yes", {"--smooth is \"yes\"; one of on, off was expected"}},
+        {"render --cover-screen 1", {"--cover-screen is \"1\"; one of on, off was expected"}},
         {"render --minimum-cosine nan", {"--minimum-cosine"}},
         {"render --only-level 4", {"--only-level", "3"}},
         {"render --only-level -1", {"--only-level"}},

@@ -49,6 +49,8 @@ TEST_CASE("plan prints passes and memory for the size and settings it is given")
     for (const char* text : {"input 640x360", "pass gather level 2", "320x180", "memory"})
         CHECK_MESSAGE(outcome.output.find(text) != std::string::npos, text);
     CHECK(outcome.output.find("gather level 3") == std::string::npos);
+    CHECK(outcome.output.find("pass smooth") != std::string::npos);
+    CHECK(run("plan --smooth off", folder.path()).output.find("pass smooth") == std::string::npos);
 }
 
 TEST_CASE("help and version are answers, not failures") {
