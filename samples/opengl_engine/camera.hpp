@@ -2,7 +2,7 @@
 // The engine's camera: OpenGL's clip space, and what Rebound has to know of it.
 #pragma once
 
-#include "lab/scene.hpp"
+#include "lab/scenes/scene.hpp"
 #include "rebound/camera.hpp"
 
 namespace rebound::engine {

@@ -4,8 +4,8 @@
 
 #include "objects.hpp"
 
-#include "engine/lights.hpp"
-#include "engine/scene_data.hpp"
+#include "lab/engine/lights.hpp"
+#include "lab/engine/scene_data.hpp"
 
 namespace rebound::engine {
 

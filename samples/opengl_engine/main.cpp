@@ -4,8 +4,8 @@
 #include "window.hpp"
 #endif
 
-#include "engine/command_line.hpp"
-#include "host/opengl_context.hpp"
+#include "lab/engine/command_line.hpp"
+#include "lab/host/opengl_context.hpp"
 
 namespace rebound::engine {
 namespace {

@@ -2,7 +2,7 @@
 // OpenGL objects that delete themselves: their context has to be current then.
 #pragma once
 
-#include "host/gl_functions.hpp"
+#include "lab/host/gl_functions.hpp"
 #include "rebound/result.hpp"
 
 #include <cstddef>

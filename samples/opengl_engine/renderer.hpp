@@ -6,7 +6,7 @@
 #include "gpu_scene.hpp"
 #include "indirect_light.hpp"
 
-#include "host/opengl_texture.hpp"
+#include "lab/host/opengl_texture.hpp"
 
 #include <memory>
 

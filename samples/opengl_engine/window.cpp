@@ -3,9 +3,9 @@
 
 #include "renderer.hpp"
 
-#include "engine/orbit.hpp"
-#include "host/opengl_context.hpp"
-#include "lab/image_files.hpp"
+#include "lab/engine/orbit.hpp"
+#include "lab/host/opengl_context.hpp"
+#include "lab/images/image_files.hpp"
 
 #include "present_frag.h"
 #include "present_vert.h"

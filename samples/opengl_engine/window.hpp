@@ -2,7 +2,7 @@
 // A window with an orbit camera.
 #pragma once
 
-#include "engine/command_line.hpp"
+#include "lab/engine/command_line.hpp"
 
 namespace rebound::engine {
 

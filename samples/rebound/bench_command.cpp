@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "frame_source.hpp"
-#include "measure/measurement.hpp"
+#include "lab/measure/measurement.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -96,7 +96,7 @@ void print(const SourcedFrame& source, const std::vector<Run>& runs, const Bench
             all.push_back(toJson(runToJson(source, run.settings, preset, run.backend, run.precision, run.memory),
                                  run.measurement, options));
         const Json json = all.size() == 1 ? all[0] : Json{{"runs", all}};
-        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        std::cout << toText(json);
         return;
     }
     for (const Run& run : runs)

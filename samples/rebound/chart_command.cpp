@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "charts/file_lock.hpp"
-#include "charts/gnuplot.hpp"
-#include "charts/report.hpp"
-#include "charts/run.hpp"
+#include "lab/charts/file_lock.hpp"
+#include "lab/charts/gnuplot.hpp"
+#include "lab/charts/report.hpp"
+#include "lab/charts/run.hpp"
 #include "commands.hpp"
-#include "lab/output_file.hpp"
+#include "lab/files/output_file.hpp"
 #include "memory_check.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
@@ -99,12 +99,6 @@ private:
     bool made = false;
 };
 
-OutputFile textFile(const std::string& name, std::string text) {
-    return {name, [text = std::move(text)](const fs::path& path) {
-                return lab::writeFile(path, std::as_bytes(std::span(text)));
-            }};
-}
-
 OutputFile copyOf(const fs::path& file) {
     return {file.filename().string(), [file](const fs::path& path) -> Result<> {
                 std::error_code failure;
@@ -155,8 +149,7 @@ Result<> writeResults(const charts::Results& results, const fs::path& out, const
         return page.error();
     files->push_back(textFile("index.html", *std::move(page)));
     files->push_back(textFile("results.csv", charts::resultsCsv(results)));
-    files->push_back(textFile("results.json",
-                              charts::toJson(results).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
+    files->push_back(textFile("results.json", toText(charts::toJson(results))));
     files->push_back(textFile("summary.md", charts::summaryText(results)));
     return writeOutputFolder(out, *files);
 }

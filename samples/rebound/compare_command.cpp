@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "compare_report.hpp"
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -122,7 +122,7 @@ Result<> compare(const CompareCommandOptions& options) {
         options.test, options.truth,       options.mask, pictures->truth.extent(), pictures->truth.channels,
         *how.curve,   how.pixelsPerDegree, *found};
     if (options.json)
-        std::cout << compareJson(comparison).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        std::cout << toText(compareJson(comparison));
     else
         std::cout << compareText(comparison);
     return {};

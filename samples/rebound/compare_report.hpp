@@ -2,7 +2,7 @@
 // What a comparison of two pictures found, for people and for programs.
 #pragma once
 
-#include "metrics/metrics.hpp"
+#include "lab/metrics/metrics.hpp"
 #include "report.hpp"
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "conform_report.hpp"
-#include "conformance/conformance.hpp"
+#include "lab/conformance/conformance.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 

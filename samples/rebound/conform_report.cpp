@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "conform_report.hpp"
 
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 #include "output_folder.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // What conform says, for people, for programs and in pictures.
 #pragma once
 
-#include "conformance/conformance.hpp"
+#include "lab/conformance/conformance.hpp"
 #include "report.hpp"
 
 #include <string>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "explain/error_causes.hpp"
+#include "lab/explain/error_causes.hpp"
 #include "frame_source.hpp"
-#include "lab/output_file.hpp"
 #include "memory_check.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
@@ -16,7 +15,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <span>
 
 namespace rebound::cli {
 
@@ -126,11 +124,7 @@ Result<> writePictures(const ExplainCommandOptions& options, const Explanation& 
     files.push_back({"contact_sheet.png", [&](const fs::path& path) {
                          return lab::writePng(path, sheetOf(explanation, scale, curve));
                      }});
-    files.push_back({"causes.json", [&](const fs::path& path) {
-                         const std::string text =
-                             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-                         return lab::writeFile(path, std::as_bytes(std::span(text)));
-                     }});
+    files.push_back(textFile("causes.json", toText(json)));
     if (auto written = writeOutputFolder(options.out, files); !written)
         return written;
     if (!options.json)
@@ -181,7 +175,7 @@ Result<> explainScene(const ExplainCommandOptions& options) {
         return explanation.error();
     const Json json = toJson(options, view->camera, *extent, *explanation);
     if (options.json)
-        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        std::cout << toText(json);
     else
         std::cout << options.source.scene << ", camera " << view->camera.name << ", "
                   << options.technique.size << ", " << options.technique.preset

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "frame_source.hpp"
 
-#include "lab/frame_check.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/rays/frame_check.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "progress.hpp"
 
 #include <cmath>

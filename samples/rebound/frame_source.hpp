@@ -2,7 +2,7 @@
 // The frame that a command works on, rendered from a scene or read from a folder.
 #pragma once
 
-#include "lab/frame.hpp"
+#include "lab/rays/frame.hpp"
 #include "options.hpp"
 
 namespace rebound::cli {

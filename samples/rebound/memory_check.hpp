@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "runner/runner.hpp"
+#include "lab/runner/runner.hpp"
 
 namespace rebound::cli {
 

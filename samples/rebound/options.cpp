@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "options.hpp"
 
-#include "measure/named_values.hpp"
+#include "lab/measure/named_values.hpp"
 #include "memory_check.hpp"
 
 #include <sstream>

@@ -2,7 +2,7 @@
 // What the commands share on the command line, and what it means.
 #pragma once
 
-#include "measure/settings_draft.hpp"
+#include "lab/measure/settings_draft.hpp"
 
 #include <optional>
 #include <string>

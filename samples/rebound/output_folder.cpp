@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "output_folder.hpp"
 
+#include "lab/files/output_file.hpp"
+
+#include <span>
 #include <system_error>
+#include <utility>
 
 namespace rebound::cli {
 
@@ -114,6 +118,12 @@ private:
 };
 
 } // namespace
+
+OutputFile textFile(const std::string& name, std::string text) {
+    return {name, [text = std::move(text)](const fs::path& path) {
+                return lab::writeFile(path, std::as_bytes(std::span(text)));
+            }};
+}
 
 Result<> checkOutputFolder(const fs::path& folder) {
     if (folder.empty())

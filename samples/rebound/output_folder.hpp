@@ -16,6 +16,9 @@ struct OutputFile {
     std::function<Result<>(const std::filesystem::path&)> write; // writes the file of that path
 };
 
+// Of that text.
+OutputFile textFile(const std::string& name, std::string text);
+
 // Whether files could be written there now: in an existing folder, or in one that could be created. Leaves no
 // trace.
 Result<> checkOutputFolder(const std::filesystem::path&);

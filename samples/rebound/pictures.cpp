@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pictures.hpp"
 
-#include "lab/luminance.hpp"
-#include "lab/reduce.hpp"
+#include "lab/images/luminance.hpp"
+#include "lab/images/reduce.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "frame_source.hpp"
-#include "lab/parallel_rows.hpp"
+#include "lab/rays/parallel_rows.hpp"
+#include "lab/measure/measurement.hpp"
 #include "options.hpp"
 #include "reference_render.hpp"
 #include "report.hpp"
@@ -36,13 +37,16 @@ struct RecordedRay {
 // Of the same rays: by the path tracer, and by Embree alone.
 struct Rates {
     size_t rays = 0;
-    std::vector<double> traced, alone; // rays a second, a repetition each
+    measure::Series traced, alone; // a repetition each
+
+    // By the median.
+    double perSecond(const measure::Series& series) const { return 1e3 * double(rays) / series.median(); }
 };
 
-double secondsOf(const std::function<void()>& work) {
+double millisecondsOf(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Casts recorded rays in the order in which they were cast, as Embree's tutorials do: one by one.
@@ -70,7 +74,7 @@ Result<double> tracePass(const SourcedView& view, const lab::PathTracerOptions& 
         tracer->embreeScene().observeRays([record](const lab::Ray& ray, bool isShadowRay) {
             record->push_back({ray, isShadowRay});
         });
-    return secondsOf([&] { tracer->addPass(); });
+    return millisecondsOf([&] { tracer->addPass(); });
 }
 
 Result<Rates> measure(const SourcedView& view, lab::PathTracerOptions options, int repeats) {
@@ -88,16 +92,10 @@ Result<Rates> measure(const SourcedView& view, lab::PathTracerOptions options, i
         const auto traced = tracePass(view, options, nullptr);
         if (!traced)
             return traced.error();
-        rates.traced.push_back(double(rays.size()) / *traced);
-        rates.alone.push_back(double(rays.size()) /
-                              secondsOf([&] { replay(*scene, rays, options.threads); }));
+        rates.traced.milliseconds.push_back(*traced);
+        rates.alone.milliseconds.push_back(millisecondsOf([&] { replay(*scene, rays, options.threads); }));
     }
     return rates;
-}
-
-double medianOf(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 Result<> benchRays(const RaysOptions& options) {
@@ -116,12 +114,12 @@ Result<> benchRays(const RaysOptions& options) {
     const auto rates = measure(*view, *tracing, options.repeats);
     if (!rates)
         return rates.error();
-    const double traced = medianOf(rates->traced), alone = medianOf(rates->alone);
+    const double traced = rates->perSecond(rates->traced), alone = rates->perSecond(rates->alone);
     if (options.json) {
         const Json json{
             {"scene", options.source.scene}, {"camera", view->camera.name},     {"rays", rates->rays},
             {"rays_per_second", traced},     {"embree_rays_per_second", alone}, {"ratio", traced / alone}};
-        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        std::cout << toText(json);
     } else {
         std::cout << options.source.scene << ", camera " << view->camera.name << ", " << options.size << ", "
                   << formatted("%d bounces: %.2f million rays\n", options.bounces, double(rates->rays) / 1e6)

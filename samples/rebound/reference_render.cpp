@@ -2,12 +2,11 @@
 #include "reference_render.hpp"
 
 #include "frame_source.hpp"
-#include "lab/camera_json.hpp"
-#include "lab/image_files.hpp"
-#include "lab/output_file.hpp"
-#include "lab/reference_cache.hpp"
+#include "lab/scenes/camera_json.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/light/reference_cache.hpp"
 #include "memory_check.hpp"
-#include "measure/named_values.hpp"
+#include "lab/measure/named_values.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
@@ -17,7 +16,6 @@
 
 #include <chrono>
 #include <iostream>
-#include <span>
 
 namespace rebound::cli {
 
@@ -115,11 +113,7 @@ std::vector<OutputFile> filesOf(const lab::Frame& frame, const lab::PathTracedLi
     files.push_back({"contact_sheet.png", [&](const fs::path& path) {
                          return lab::writePng(path, contactSheetOf(images, frame, curve));
                      }});
-    files.push_back({"meta.json", [&meta](const fs::path& path) {
-                         const std::string text =
-                             meta.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-                         return lab::writeFile(path, std::as_bytes(std::span(text)));
-                     }});
+    files.push_back(textFile("meta.json", toText(meta)));
     return files;
 }
 

@@ -2,7 +2,7 @@
 // render --technique reference: path-traced light instead of a technique's.
 #pragma once
 
-#include "lab/path_tracer.hpp"
+#include "lab/light/path_tracer.hpp"
 #include "options.hpp"
 
 namespace rebound::cli {

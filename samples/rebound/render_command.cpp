@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "frame_source.hpp"
-#include "lab/image_files.hpp"
-#include "lab/output_file.hpp"
-#include "measure/frame_pipeline.hpp"
-#include "measure/named_values.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/measure/frame_pipeline.hpp"
+#include "lab/measure/named_values.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "reference_render.hpp"
 #include "report.hpp"
-#include "runner/texels.hpp"
+#include "lab/runner/texels.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <memory>
-#include <span>
 
 namespace rebound::cli {
 
@@ -120,11 +118,7 @@ Result<> render(const RenderOptions& options) {
     files.push_back({"contact_sheet.png", [&](const fs::path& path) {
                          return lab::writePng(path, contactSheetOf(images, source->frame, curve));
                      }});
-    files.push_back({"timings.json", [&](const fs::path& path) {
-                         const std::string text =
-                             figures.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-                         return lab::writeFile(path, std::as_bytes(std::span(text)));
-                     }});
+    files.push_back(textFile("timings.json", toText(figures)));
     if (auto written = writeOutputFolder(options.out, files); !written)
         return written;
 

@@ -17,6 +17,10 @@ std::string megabytes(size_t bytes) {
 
 } // namespace
 
+std::string toText(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings& s,
                         const std::string& preset, const runner::BackendInfo& backend, runner::Precision precision) {
     std::string text = source.name;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "frame_source.hpp"
-#include "measure/settings_json.hpp"
+#include "lab/measure/settings_json.hpp"
 
 #include <cstdio>
 #include <string>
@@ -21,6 +21,9 @@ std::string formatted(const char* format, Values... values) {
     std::snprintf(text, sizeof text, format, values...);
     return text;
 }
+
+// JSON for people and programs, with a line's end; what is no UTF-8, as names of files may be, is replaced.
+std::string toText(const Json&);
 
 // What was run on what, in two lines.
 std::string describeRun(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,

@@ -2,7 +2,7 @@
 // The engine's camera: Vulkan's clip space, reversed depth, and what Rebound has to know of them.
 #pragma once
 
-#include "lab/scene.hpp"
+#include "lab/scenes/scene.hpp"
 #include "rebound/camera.hpp"
 
 namespace rebound::engine {

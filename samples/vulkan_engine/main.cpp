@@ -4,7 +4,7 @@
 #include "window.hpp"
 #endif
 
-#include "engine/command_line.hpp"
+#include "lab/engine/command_line.hpp"
 
 namespace rebound::engine {
 namespace {

@@ -3,7 +3,7 @@
 // it: make what is needed, then ask status() once.
 #pragma once
 
-#include "host/vulkan_image.hpp"
+#include "lab/host/vulkan_image.hpp"
 
 #include <functional>
 #include <memory>

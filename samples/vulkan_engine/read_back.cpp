@@ -2,7 +2,7 @@
 // Images from the GPU, for pictures and tests.
 #include "renderer.hpp"
 
-#include "runner/texels.hpp"
+#include "lab/runner/texels.hpp"
 
 #include <glm/gtc/packing.hpp>
 

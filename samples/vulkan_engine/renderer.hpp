@@ -7,7 +7,7 @@
 #include "indirect_light.hpp"
 #include "passes.hpp"
 
-#include "lab/image.hpp"
+#include "lab/images/image.hpp"
 
 namespace rebound::engine {
 

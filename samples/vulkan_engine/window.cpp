@@ -5,7 +5,7 @@
 #include "renderer.hpp"
 #include "swapchain.hpp"
 
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <vulkan/vulkan.h>

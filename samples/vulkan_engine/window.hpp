@@ -2,10 +2,10 @@
 // A window with an orbit camera.
 #pragma once
 
-#include "engine/command_line.hpp"
-#include "engine/orbit.hpp"
-#include "host/vulkan_context.hpp"
-#include "lab/scene.hpp"
+#include "lab/engine/command_line.hpp"
+#include "lab/engine/orbit.hpp"
+#include "lab/host/vulkan_context.hpp"
+#include "lab/scenes/scene.hpp"
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 // The input check on real views and on the lab's own scenes.
 #include "reference_frames.hpp"
 
-#include "lab/camera_matrices.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/scenes/camera_matrices.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "rebound/cpu/device.hpp"
 #include "rebound/techniques/input_check.hpp"
 

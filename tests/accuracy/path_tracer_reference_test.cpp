@@ -2,9 +2,9 @@
 // The path tracer against an independent renderer's light in real scenes.
 #include "reference_frames.hpp"
 
-#include "lab/image_files.hpp"
-#include "lab/path_tracer.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/light/path_tracer.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

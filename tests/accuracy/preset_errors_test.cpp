@@ -3,8 +3,8 @@
 // that makes a view worse fails, and so does one that makes it better, until preset_errors.json says so.
 #include "reference_frames.hpp"
 
-#include "lab/reference_cache.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/light/reference_cache.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

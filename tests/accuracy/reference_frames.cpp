@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reference_frames.hpp"
 
-#include "lab/camera_matrices.hpp"
-#include "lab/image_files.hpp"
+#include "lab/scenes/camera_matrices.hpp"
+#include "lab/images/image_files.hpp"
 #include "rebound/cpu/device.hpp"
 
 #include <nlohmann/json.hpp>

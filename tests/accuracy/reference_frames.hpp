@@ -2,7 +2,7 @@
 // Runs presets on the reference frames, whose one-bounce light an independent renderer traced, and measures the error.
 #pragma once
 
-#include "lab/frame.hpp"
+#include "lab/rays/frame.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
 #include <map>

@@ -2,7 +2,7 @@
 // Results whose figures are made up, for tests of what is drawn and written.
 #pragma once
 
-#include "charts/point.hpp"
+#include "lab/charts/point.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // A workshop that measures nothing: what it gives is made up, and what it was asked for is counted.
 #pragma once
 
-#include "charts/run.hpp"
+#include "lab/charts/run.hpp"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "charts/fronts.hpp"
-#include "charts/pareto.hpp"
+#include "lab/charts/fronts.hpp"
+#include "lab/charts/pareto.hpp"
 #include "made_results.hpp"
-#include "measure/measurement.hpp"
+#include "lab/measure/measurement.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "../lab/temporary_folder.hpp"
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 #include "made_workshop.hpp"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "../lab/temporary_folder.hpp"
-#include "charts/gnuplot.hpp"
-#include "charts/pictures.hpp"
-#include "charts/report.hpp"
+#include "lab/charts/gnuplot.hpp"
+#include "lab/charts/pictures.hpp"
+#include "lab/charts/report.hpp"
 #include "made_results.hpp"
 
 #include <doctest/doctest.h>

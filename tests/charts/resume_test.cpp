@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "../lab/temporary_folder.hpp"
-#include "charts/file_lock.hpp"
-#include "charts/report.hpp"
+#include "lab/charts/file_lock.hpp"
+#include "lab/charts/report.hpp"
 #include "made_workshop.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "../lab/temporary_folder.hpp"
-#include "charts/sweep.hpp"
+#include "lab/charts/sweep.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,10 +2,10 @@
 // render --technique reference
 #include "command_line.hpp"
 
-#include "lab/frame.hpp"
-#include "lab/image_files.hpp"
-#include "lab/path_tracer.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/rays/frame.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/light/path_tracer.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
-#include "lab/frame.hpp"
-#include "lab/image_files.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/rays/frame.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <nlohmann/json.hpp>
 

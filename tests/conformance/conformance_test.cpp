@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every backend of this machine against the scalar CPU, and a faulty one, which has to be found out.
-#include "conformance/conformance.hpp"
+#include "lab/conformance/conformance.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a comparison of two images finds, planted by hand.
-#include "conformance/difference.hpp"
+#include "lab/conformance/difference.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,9 +4,9 @@
 
 #include "pictures.hpp"
 
-#include "lab/frame.hpp"
-#include "lab/image_files.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/rays/frame.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <string>
 

@@ -3,8 +3,8 @@
 // base colour's opacity.
 #pragma once
 
-#include "lab/image.hpp"
-#include "lab/scene.hpp"
+#include "lab/images/image.hpp"
+#include "lab/scenes/scene.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,9 +2,9 @@
 // What the tests of the sample engines share: the CPU device's light, and pictures compared.
 #pragma once
 
-#include "lab/image.hpp"
+#include "lab/images/image.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
-#include "runner/runner.hpp"
+#include "lab/runner/runner.hpp"
 
 #include <doctest/doctest.h>
 

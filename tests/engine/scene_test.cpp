@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Scenes and lights as the sample engines' GPUs take them.
-#include "engine/lights.hpp"
-#include "engine/scene_data.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/engine/lights.hpp"
+#include "lab/engine/scene_data.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

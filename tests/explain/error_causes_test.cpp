@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "explain_scenes.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 using namespace rebound;
 using namespace rebound::explain;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "../lab/frame_test_scene.hpp"
-#include "explain/error_causes.hpp"
+#include "lab/explain/error_causes.hpp"
 
 namespace rebound::explain {
 

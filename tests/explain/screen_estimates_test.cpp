@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "explain_scenes.hpp"
 
-#include "explain/screen_estimates.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/explain/screen_estimates.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 using namespace rebound;
 using namespace rebound::explain;

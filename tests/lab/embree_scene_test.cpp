@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lab/embree_scene.hpp"
+#include "lab/rays/embree_scene.hpp"
 
 #include "frame_test_scene.hpp"
-#include "lab/emissive_surfaces.hpp"
-#include "lab/low_discrepancy.hpp"
+#include "lab/light/emissive_surfaces.hpp"
+#include "lab/light/low_discrepancy.hpp"
 
 #include <map>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "lab/camera_json.hpp"
-#include "lab/image_files.hpp"
+#include "lab/scenes/camera_json.hpp"
+#include "lab/images/image_files.hpp"
 
 #include "frame_test_scene.hpp"
 #include "temporary_folder.hpp"

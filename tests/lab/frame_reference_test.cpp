@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Frames of real scenes against an independent renderer (Blender Cycles), pixel by pixel.
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include "frame_test_scene.hpp"
 

@@ -2,7 +2,7 @@
 // Small scenes for tests of frames.
 #pragma once
 
-#include "lab/frame.hpp"
+#include "lab/rays/frame.hpp"
 
 #include <doctest/doctest.h>
 

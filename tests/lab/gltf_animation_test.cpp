@@ -2,7 +2,7 @@
 // Keyframes, skins and morph weights at a moment, against closed forms.
 #include "gltf_draft.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

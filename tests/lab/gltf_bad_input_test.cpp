@@ -2,7 +2,7 @@
 // Every kind of damaged file is one clear error.
 #include "gltf_draft.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // Positions, normals and texture coordinates against closed forms.
 #include "gltf_draft.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // Materials, textures, lights and cameras of glTF files.
 #include "gltf_draft.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/image_files.hpp"
+#include "lab/images/image_files.hpp"
 
 #include "temporary_folder.hpp"
 

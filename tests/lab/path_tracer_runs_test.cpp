@@ -3,8 +3,8 @@
 // input.
 #include "path_tracer_test_light.hpp"
 
-#include "lab/reference_cache.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/light/reference_cache.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "temporary_folder.hpp"
 
 #include <cstring>

@@ -2,7 +2,7 @@
 // What tests of path-traced light share.
 #pragma once
 
-#include "lab/path_tracer.hpp"
+#include "lab/light/path_tracer.hpp"
 
 #include "frame_test_scene.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The scenes made in code, and the solids that they are made of.
-#include "lab/atrium_parts.hpp"
-#include "lab/builtin_textures.hpp"
-#include "lab/mesh_builder.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/scenes/atrium_parts.hpp"
+#include "lab/scenes/builtin_textures.hpp"
+#include "lab/scenes/mesh_builder.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/scene.hpp"
+#include "lab/scenes/scene.hpp"
 
 #include <doctest/doctest.h>
 

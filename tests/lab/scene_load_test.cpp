@@ -2,7 +2,7 @@
 // loadScene, and every shared scene where these are at hand.
 #include "gltf_draft.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lobes: what their sampling says of itself, energy, reciprocity, and limits that are known.
-#include "lab/sampling.hpp"
-#include "lab/surface_lobes.hpp"
+#include "lab/light/sampling.hpp"
+#include "lab/light/surface_lobes.hpp"
 
 #include <doctest/doctest.h>
 

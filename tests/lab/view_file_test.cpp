@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gltf_draft.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <doctest/doctest.h>
 

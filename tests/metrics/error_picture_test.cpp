@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "metrics/color_bar.hpp"
-#include "metrics/color_map.hpp"
+#include "lab/metrics/color_bar.hpp"
+#include "lab/metrics/color_map.hpp"
 #include "test_pictures.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metrics/flip_filters.hpp"
+#include "lab/metrics/flip_filters.hpp"
 
 #include "test_pictures.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metrics/flip.hpp"
+#include "lab/metrics/flip.hpp"
 
 #include "test_pictures.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metrics/ssim.hpp"
+#include "lab/metrics/ssim.hpp"
 
 #include "test_pictures.hpp"
 

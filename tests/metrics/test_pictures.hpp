@@ -2,8 +2,8 @@
 // Pictures from formulas.
 #pragma once
 
-#include "metrics/metrics.hpp"
-#include "metrics/plane.hpp"
+#include "lab/metrics/metrics.hpp"
+#include "lab/metrics/plane.hpp"
 
 #include <doctest/doctest.h>
 

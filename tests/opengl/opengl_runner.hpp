@@ -4,9 +4,9 @@
 
 #include "kernel_runner.hpp"
 
-#include "host/gl_functions.hpp"
-#include "host/opengl_context.hpp"
-#include "host/opengl_texture.hpp"
+#include "lab/host/gl_functions.hpp"
+#include "lab/host/opengl_context.hpp"
+#include "lab/host/opengl_texture.hpp"
 #include "rebound/opengl/device.hpp"
 
 #include <map>

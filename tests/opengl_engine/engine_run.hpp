@@ -4,8 +4,8 @@
 
 #include "../engine/pictures.hpp"
 
-#include "host/opengl_context.hpp"
-#include "lab/scene_files.hpp"
+#include "lab/host/opengl_context.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "opengl_engine/renderer.hpp"
 
 #include <memory>

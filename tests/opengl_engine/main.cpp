@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "../device_main.hpp"
 
-#include "host/opengl_context.hpp"
+#include "lab/host/opengl_context.hpp"
 
 int main(int count, char** arguments) {
     using rebound::host::OpenGLContext;

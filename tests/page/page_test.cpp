@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "../charts/made_results.hpp"
 #include "browser.hpp"
-#include "charts/report.hpp"
-#include "lab/image_files.hpp"
+#include "lab/charts/report.hpp"
+#include "lab/images/image_files.hpp"
 
 #include <nlohmann/json.hpp>
 

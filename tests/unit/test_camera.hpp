@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/camera_conventions.hpp"
+#include "lab/scenes/camera_conventions.hpp"
 
 namespace rebound::test {
 using namespace lab;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "../device_main.hpp"
 
-#include "host/vulkan_context.hpp"
+#include "lab/host/vulkan_context.hpp"
 
 int main(int count, char** arguments) {
     rebound::host::VulkanOptions options;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "vulkan_host.hpp"
 
-#include "runner/texels.hpp"
+#include "lab/runner/texels.hpp"
 
 #include <cstring>
 

@@ -5,7 +5,7 @@
 #include "../unit/kernel_runner.hpp"
 #include "interception.hpp"
 
-#include "host/vulkan_image.hpp"
+#include "lab/host/vulkan_image.hpp"
 #include "rebound/vulkan/device.hpp"
 
 #include <memory>

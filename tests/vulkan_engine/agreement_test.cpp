@@ -3,7 +3,7 @@
 #include "../engine/agreement.hpp"
 #include "engine_run.hpp"
 
-#include "lab/camera_matrices.hpp"
+#include "lab/scenes/camera_matrices.hpp"
 
 namespace rebound::engine {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "../engine/pictures.hpp"
 
-#include "lab/scene_files.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "vulkan_engine/renderer.hpp"
 
 #include <memory>

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What backends are held against each other with: plans and inputs, every one made anew from its name and seed.
+#pragma once
+
+#include "rebound/techniques/screen_indirect.hpp"
+#include "lab/runner/runner.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rebound::conformance {
+
+struct Case {
+    Plan plan;
+    runner::PlanInputs inputs;
+    runner::Precision precision = runner::Precision::half;
+    float largestRadiance = 0; // of the inputs, finite
+};
+
+struct NamedCase {
+    std::string name;
+    std::function<Result<Case>()> make;
+};
+
+// Random settings, conventions and G-buffers: planes in patches, with sky between them.
+std::vector<NamedCase> randomCases(int count, uint64_t seed);
+// Sizes, scales and values at the ends of what is allowed, and beyond.
+std::vector<NamedCase> hardCases();
+// The lab's scenes.
+std::vector<NamedCase> sceneCases();
+
+} // namespace rebound::conformance

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A scene as a GPU takes it: one array of vertices, one of indices, a draw a mesh.
+#pragma once
+
+#include "lab/scenes/scene.hpp"
+
+namespace rebound::engine {
+
+struct Vertex {
+    glm::vec3 position, normal;
+    glm::vec2 textureCoordinate;
+};
+
+// Its twins are in the engines' shaders/material.glsl.
+struct MaterialConstants {
+    glm::vec4 baseColor, emission;
+};
+
+struct SceneData {
+    struct Part {
+        uint32_t firstIndex, indexCount;
+        int32_t vertexOffset;
+        size_t material;
+    };
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    std::vector<Part> parts;
+    std::vector<MaterialConstants> materials; // as the scene has them
+};
+
+SceneData sceneDataOf(const lab::Scene&);
+
+} // namespace rebound::engine

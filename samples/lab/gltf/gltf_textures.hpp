@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A glTF file's images, decoded as materials ask for them.
+#pragma once
+
+#include "lab/scenes/scene.hpp"
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace rebound::lab {
+
+// Pictures are refused beyond these sizes.
+inline constexpr int largestTextureSide = 16384;               // [texels]
+inline constexpr size_t largestTextureSize = size_t(1) << 26;  // [texels]
+inline constexpr size_t largestTextureTotal = size_t(1) << 28; // of all textures of a file together [texels]
+
+class GltfTextures {
+public:
+    GltfTextures(const tinygltf::Model& gltf, std::filesystem::path gltfFile)
+        : model(gltf), file(std::move(gltfFile)) {}
+
+    // The index into take()'s list of a texture of the file, decoded on its first use. PNG and JPEG; 16-bit
+    // channels are cut to 8. Throws InputError.
+    int use(int gltfTexture);
+
+    std::vector<Texture> take() { return std::move(textures); }
+
+private:
+    const tinygltf::Model& model;
+    std::filesystem::path file;
+    std::vector<Texture> textures;
+    std::map<std::tuple<int, Wrap, Wrap>, int> indices; // by image and wrapping
+    size_t total = 0;                                   // [texels]
+};
+
+} // namespace rebound::lab

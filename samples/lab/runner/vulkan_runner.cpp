@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "lab/host/vulkan_image.hpp"
+#include "rebound/vulkan/device.hpp"
+#include "lab/runner/inspection.hpp"
+
+#include <cstring>
+
+namespace rebound::runner {
+namespace {
+
+using host::VulkanBuffer;
+using host::VulkanContext;
+using host::VulkanImage;
+
+constexpr VkMemoryPropertyFlags hostMemory =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+Result<std::unique_ptr<VulkanBuffer>> stagingBuffer(const VulkanContext& context, size_t size) {
+    return VulkanBuffer::create(context, std::max<size_t>(size, 4),
+                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, hostMemory);
+}
+
+class VulkanPlan : public PreparedPlan {
+public:
+    VulkanPlan(const VulkanContext& c, vulkan::Program compiled) : context(c), program(std::move(compiled)) {}
+
+    Result<> createImages(const PlanInputs& inputs, Precision precision) {
+        const Plan& plan = program.plan();
+        images.resize(plan.resources.size());
+        for (size_t i = 0; i < plan.resources.size(); ++i) {
+            const Resource& r = plan.resources[i];
+            if (r.kind != ResourceKind::input && r.kind != ResourceKind::output) continue;
+            const Format format = r.kind == ResourceKind::input ? inputFormat(r, precision) : r.format;
+            constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+            auto image = VulkanImage::create(context, r.extent, vulkan::vulkanFormat(format), usage);
+            if (!image) return image.error();
+            images[i] = *std::move(image);
+            if (auto filled = fill(inputs, i, format); !filled) return filled;
+            frame.images.push_back({r.name, {images[i]->view, r.extent, images[i]->format, VK_IMAGE_LAYOUT_GENERAL}});
+        }
+        frame.constants = inputs.constants;
+        return {};
+    }
+
+    Result<double> run() override {
+        const auto start = std::chrono::steady_clock::now();
+        const auto done = context.run([&](VkCommandBuffer commands) {
+            const auto before = std::chrono::steady_clock::now();
+            auto recorded = program.record(commands, 0, frame);
+            recording = millisecondsSince(before);
+            return recorded;
+        });
+        if (!done) return done.error();
+        const double elapsed = millisecondsSince(start);
+        auto measured = program.timings(0);
+        if (!measured) return measured.error();
+        passTimings = *std::move(measured);
+        return elapsed;
+    }
+
+    const std::vector<PassTiming>& timings() const override { return passTimings; }
+    std::optional<double> recordingTime() const override { return recording; }
+    MemoryUse memoryUse() const override { return program.memoryUse(); }
+
+    Result<lab::Image> read(const std::string& output) override {
+        const auto index = findOutput(program.plan(), output);
+        if (!index) return index.error();
+        const Resource& r = program.plan().resources[size_t(*index)];
+        auto staging = stagingBuffer(context, sizeOf(r));
+        if (!staging) return staging.error();
+        const auto done = context.run([&](VkCommandBuffer commands) -> Result<> {
+            host::recordDownload(commands, images[size_t(*index)]->image, r.extent, (*staging)->buffer, 0);
+            host::recordFullBarrier(commands);
+            return {};
+        });
+        if (!done) return done.error();
+        return imageOf((*staging)->mapped, r.format, r.extent, r.channels);
+    }
+
+    // All in one submission: behind each pass, what it wrote is copied out and the replacement copied in.
+    Result<Record> inspect(const Record* replacement) override {
+        const Plan& plan = program.plan();
+        std::vector<Copy> copies;
+        size_t size = 0;
+        for (size_t pass = 0; pass < plan.passes.size(); ++pass)
+            for (const PassBinding& b : plan.passes[pass].bindings) {
+                if (b.access != Access::write) continue;
+                auto image = imageToCopy(b.resource);
+                if (!image) return image.error();
+                copies.push_back({pass, b.resource, *image, size});
+                size += (sizeOf(plan.resources[size_t(b.resource)]) + 15) / 16 * 16;
+            }
+        auto out = stagingBuffer(context, size), in = stagingBuffer(context, replacement ? size : 0);
+        if (!out) return out.error();
+        if (!in) return in.error();
+        if (replacement) writeReplacement(*replacement, copies, **in);
+        program.onPass([&](VkCommandBuffer commands, int pass) {
+            host::recordFullBarrier(commands);
+            for (const Copy& copy : copies) {
+                if (copy.pass != size_t(pass)) continue;
+                const Extent2D extent = plan.resources[size_t(copy.resource)].extent;
+                host::recordDownload(commands, copy.image, extent, (*out)->buffer, copy.offset);
+                if (!replacement) continue;
+                host::recordFullBarrier(commands);
+                host::recordUpload(commands, (*in)->buffer, copy.offset, copy.image, extent);
+            }
+            host::recordFullBarrier(commands);
+        });
+        const auto done = context.run([&](VkCommandBuffer commands) { return program.record(commands, 0, frame); });
+        program.onPass({});
+        if (!done) return done.error();
+        Record record(plan.passes.size());
+        for (const Copy& copy : copies) {
+            const Resource& r = plan.resources[size_t(copy.resource)];
+            record[copy.pass].push_back(
+                {copy.resource, imageOf((*out)->mapped + copy.offset, r.format, r.extent, r.channels)});
+        }
+        return record;
+    }
+
+private:
+    struct Copy {
+        size_t pass;
+        ResourceIndex resource;
+        VkImage image;
+        size_t offset; // in the staging buffers [bytes]
+    };
+
+    static size_t sizeOf(const Resource& r) {
+        return bytesPerTexel(r.format) * size_t(r.extent.width) * size_t(r.extent.height);
+    }
+
+    Result<VkImage> imageToCopy(ResourceIndex index) const {
+        if (images[size_t(index)]) return images[size_t(index)]->image;
+        return program.transientImage(program.plan().resources[size_t(index)].name);
+    }
+
+    void writeReplacement(const Record& replacement, const std::vector<Copy>& copies, VulkanBuffer& in) const {
+        size_t index = 0;
+        for (size_t i = 0; i < copies.size(); ++i) {
+            index = i > 0 && copies[i].pass == copies[i - 1].pass ? index + 1 : 0;
+            const lab::Image& image = replacement[copies[i].pass][index].image;
+            const auto texels = texelsOf(image, program.plan().resources[size_t(copies[i].resource)].format);
+            std::memcpy(in.mapped + copies[i].offset, texels.data(), texels.size());
+        }
+    }
+
+    // An input's contents, or zeros.
+    Result<> fill(const PlanInputs& inputs, size_t index, Format format) {
+        const Resource& r = program.plan().resources[index];
+        std::vector<std::byte> texels(bytesPerTexel(format) * size_t(r.extent.width) * size_t(r.extent.height));
+        if (r.kind == ResourceKind::input) {
+            auto picture = findPicture(program.plan(), inputs, r);
+            if (!picture) return picture.error();
+            texels = texelsOf(**picture, format);
+        }
+        auto staging = stagingBuffer(context, texels.size());
+        if (!staging) return staging.error();
+        std::memcpy((*staging)->mapped, texels.data(), texels.size());
+        return context.run([&](VkCommandBuffer commands) -> Result<> {
+            host::recordTransition(commands, images[index]->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            host::recordUpload(commands, (*staging)->buffer, 0, images[index]->image, r.extent);
+            host::recordFullBarrier(commands);
+            return {};
+        });
+    }
+
+    const VulkanContext& context;
+    vulkan::Program program;
+    std::vector<std::unique_ptr<VulkanImage>> images; // by resource; null where it is none of the host's
+    FrameInputs<vulkan::Image> frame;
+    std::vector<PassTiming> passTimings;
+    double recording = 0; // [ms]
+};
+
+class VulkanBackend : public Backend {
+public:
+    VulkanBackend(VulkanContext c, vulkan::Device d) : context(std::move(c)), device(std::move(d)) {}
+
+    BackendInfo info() const override { return {"vulkan", context.deviceName(), "", 0}; }
+    Result<MemoryUse> memoryUse(const Plan& plan) const override { return device.memoryUse(plan, {1, nullptr, false}); }
+    std::vector<std::string> complaints() override { return context.messages(); }
+
+    Result<std::unique_ptr<PreparedPlan>> prepare(const Plan& plan, const PlanInputs& inputs,
+                                                  const PrepareOptions& options) override {
+        auto program = device.compile(plan, {1, nullptr, options.inspectable});
+        if (!program) return program.error();
+        auto prepared = std::make_unique<VulkanPlan>(context, *std::move(program));
+        if (auto made = prepared->createImages(inputs, options.precision); !made) return made.error();
+        return std::unique_ptr<PreparedPlan>(std::move(prepared));
+    }
+
+private:
+    VulkanContext context;
+    vulkan::Device device;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Backend>> createVulkanBackend(const BackendChoice& choice) {
+    host::VulkanOptions hostOptions;
+    hostOptions.device = choice.device;
+    hostOptions.validation = choice.validation;
+    auto context = VulkanContext::create(hostOptions);
+    if (!context) return context.error();
+    vulkan::DeviceOptions options;
+    options.getInstanceProcAddr = vkGetInstanceProcAddr;
+    options.instance = context->instance();
+    options.physicalDevice = context->physicalDevice();
+    options.device = context->device();
+    options.queueFamily = context->queueFamily();
+    options.timings = true;
+    options.debugUtils = context->hasDebugUtils();
+    auto device = vulkan::Device::create(options);
+    if (!device) return device.error();
+    return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(*std::move(context), *std::move(device)));
+}
+
+} // namespace rebound::runner

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "lab/scenes/scene_files.hpp"
+
+#include "lab/files/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace rebound::lab {
+namespace {
+
+constexpr std::string_view builtinPrefix = "builtin:";
+
+Scene makeBuiltin(const std::string& name) {
+    if (name == "atrium")
+        return makeAtrium();
+    if (name == "cornell")
+        return makeCornellBox();
+    refuse("there is no built-in scene '" + std::string(builtinPrefix) + name +
+               "'; there are 'builtin:atrium' and 'builtin:cornell'",
+           ErrorCode::notFound);
+}
+
+template <class T>
+T orRefuse(Result<T> result) {
+    if (!result)
+        throw InputError(result.error());
+    return std::move(*result);
+}
+
+std::filesystem::path viewFileBeside(const std::filesystem::path& sceneFile) {
+    const std::filesystem::path candidate = sceneFile.parent_path() / "view.json";
+    std::error_code failure;
+    return std::filesystem::exists(candidate, failure) ? candidate : std::filesystem::path();
+}
+
+// From outside the bounding sphere, down a little onto its middle.
+CameraView cameraOnAll(const Scene& scene) {
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (const Mesh& mesh : scene.meshes)
+        for (const glm::vec3& position : mesh.positions) {
+            low = glm::min(low, glm::dvec3(position));
+            high = glm::max(high, glm::dvec3(position));
+        }
+    const glm::dvec3 centre = (low + high) / 2.0;
+    const double radius = std::max(glm::length(high - low) / 2.0, 1e-6);
+    CameraView camera;
+    camera.name = "default";
+    camera.verticalFieldOfView = glm::radians(45.0f);
+    // In square and wider pictures the sphere touches the upper and lower edges.
+    const double distance = radius / std::sin(static_cast<double>(camera.verticalFieldOfView) / 2.0);
+    camera.position = glm::vec3(centre + distance * glm::normalize(glm::dvec3(1.0, 0.7, 1.5)));
+    camera.target = glm::vec3(centre);
+    camera.farPlane = static_cast<float>(distance + 2.0 * radius);
+    camera.nearPlane = static_cast<float>((distance - radius) / 2.0);
+    return camera;
+}
+
+bool isLit(const Scene& scene) {
+    const auto isBright = [](const glm::vec3& light) { return light != glm::vec3(0.0f); };
+    const auto emits = [&](const Mesh& mesh) {
+        return isBright(scene.materials[static_cast<size_t>(mesh.material)].emission);
+    };
+    return isBright(scene.environment) ||
+           std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [&](const Light& light) { return isBright(light.intensity); }) ||
+           (scene.emissiveMaterialsLight && std::any_of(scene.meshes.begin(), scene.meshes.end(), emits));
+}
+
+// A view file's moment, changed as asked.
+GltfOptions momentOf(GltfOptions options, const SceneMoment& moment) {
+    // Another clip's time means nothing to this one.
+    if (moment.animation && *moment.animation != options.animation)
+        options.time = 0.0f;
+    options.animation = moment.animation.value_or(options.animation);
+    options.time = moment.time.value_or(options.time);
+    options.animate = options.animate || moment.animation || moment.time;
+    return options;
+}
+
+Scene readScene(const std::string& name, const std::filesystem::path& viewFile, const SceneMoment& moment) {
+    if (name.starts_with(builtinPrefix)) {
+        if (moment.animation || moment.time)
+            refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
+                   ErrorCode::invalidArgument);
+        Scene scene = makeBuiltin(name.substr(builtinPrefix.size()));
+        if (!viewFile.empty())
+            orRefuse(applyViewFile(viewFile, scene));
+        return scene;
+    }
+    const std::filesystem::path file(name);
+    const std::filesystem::path view = viewFile.empty() ? viewFileBeside(file) : viewFile;
+    const GltfOptions stored = view.empty() ? GltfOptions{} : orRefuse(readViewAnimation(view));
+    Scene scene = orRefuse(loadGltf(file, momentOf(stored, moment)));
+    if (!view.empty())
+        orRefuse(applyViewFile(view, scene));
+    return scene;
+}
+
+} // namespace
+
+Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile,
+                        const SceneMoment& moment) {
+    Scene scene;
+    try {
+        scene = readScene(fileOrBuiltin, viewFile, moment);
+    } catch (const InputError& failure) {
+        return failure.error();
+    }
+    const std::string subject = "'" + fileOrBuiltin + "': ";
+    if (scene.cameras.empty() && scene.triangleCount() > 0)
+        scene.cameras.push_back(cameraOnAll(scene));
+    if (const Result<> valid = validate(scene); !valid)
+        return Error{valid.error().code, subject + valid.error().message};
+    if (!isLit(scene))
+        return Error{
+            ErrorCode::invalidData,
+            subject +
+                "no light: the scene has neither lights nor an environment nor emissive surfaces that light"};
+    return scene;
+}
+
+} // namespace rebound::lab
