@@ -20,8 +20,7 @@ std::string whyMissing(const Result<Device>& device) {
 
 // 77 tells CTest to count the test as skipped.
 inline int runUnlessMissing(const std::string& why, int count, char** arguments) {
-    if (why.empty())
-        return doctest::Context(count, arguments).run();
+    if (why.empty()) return doctest::Context(count, arguments).run();
     std::printf("skipped: %s\n", why.c_str());
     return 77;
 }

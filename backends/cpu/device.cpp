@@ -20,7 +20,8 @@ void AlignedMemory::Free::operator()(std::byte* p) const {
 }
 
 AlignedMemory AlignedMemory::allocate(size_t size) {
-    return {std::unique_ptr<std::byte[], Free>(new (std::align_val_t(memoryAlignment), std::nothrow) std::byte[size])};
+    return {std::unique_ptr<std::byte[], Free>(new (std::align_val_t(memoryAlignment), std::nothrow)
+                                                   std::byte[size])};
 }
 
 ImageLayout layoutOf(const Resource& r) {
@@ -83,7 +84,8 @@ RunRows variantOf(const KernelEntry& kernel, const Pass& pass) {
 
 Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const KernelEntry& kernel,
                                  const std::vector<Binding>& resources) {
-    if (auto valid = detail::checkKernelUse(plan, pass, kernel.name, kernel.info); !valid) return valid.error();
+    if (auto valid = detail::checkKernelUse(plan, pass, kernel.name, kernel.info); !valid)
+        return valid.error();
     CompiledPass compiled;
     compiled.run = variantOf(kernel, pass);
     compiled.grid = pass.grid;
@@ -93,7 +95,8 @@ Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const Kerne
         const Resource& r = plan.resources[size_t(binding.resource)];
         compiled.slots[size_t(binding.slot)] = resources[size_t(binding.resource)];
         compiled.slots[size_t(binding.slot)].kind = kernel.info.kinds[binding.slot];
-        if (r.kind != ResourceKind::transient && r.kind != ResourceKind::buffer) compiled.external.push_back(binding);
+        if (r.kind != ResourceKind::transient && r.kind != ResourceKind::buffer)
+            compiled.external.push_back(binding);
         if (r.kind == ResourceKind::transient && binding.access == Access::write)
             compiled.cleared.push_back(binding.resource);
     }
@@ -107,8 +110,9 @@ Result<Device> Device::create(const DeviceOptions& options) {
         return invalidArgument("threads is " + std::to_string(options.threads) +
                                "; 1 to 1024, or 0 for one a core, was expected");
     if (!isAvailable(options.isa))
-        return Error{ErrorCode::unsupported, std::string("isa is ") + name(options.isa) +
-                                                 ", which this processor does not run or this build leaves out"};
+        return Error{ErrorCode::unsupported,
+                     std::string("isa is ") + name(options.isa) +
+                         ", which this processor does not run or this build leaves out"};
     auto shared = std::make_shared<Shared>();
     shared->isa = options.isa == Isa::automatic ? availableIsas().back() : options.isa;
     shared->timings = options.timings;

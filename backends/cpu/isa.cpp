@@ -25,17 +25,19 @@ bool processorRuns(Isa isa) {
     switch (isa) {
     case Isa::automatic:
     case Isa::scalar:
-    case Isa::baseline: return true;
+    case Isa::baseline:
+        return true;
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
     case Isa::avx2:
         return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && hasF16c();
     case Isa::avx512:
-        return processorRuns(Isa::avx2) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
-               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-               __builtin_cpu_supports("avx512vl");
+        return processorRuns(Isa::avx2) && __builtin_cpu_supports("avx512f") &&
+               __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
 #else
     case Isa::avx2:
-    case Isa::avx512: return false;
+    case Isa::avx512:
+        return false;
 #endif
     }
     return false;
@@ -45,11 +47,16 @@ bool processorRuns(Isa isa) {
 
 const char* name(Isa isa) {
     switch (isa) {
-    case Isa::automatic: return "automatic";
-    case Isa::scalar: return "scalar";
-    case Isa::baseline: return "baseline";
-    case Isa::avx2: return "avx2";
-    case Isa::avx512: return "avx512";
+    case Isa::automatic:
+        return "automatic";
+    case Isa::scalar:
+        return "scalar";
+    case Isa::baseline:
+        return "baseline";
+    case Isa::avx2:
+        return "avx2";
+    case Isa::avx512:
+        return "avx512";
     }
     return "?";
 }

@@ -22,18 +22,20 @@ Result<> checkImage(const Resource& r, const Image& image) {
     const std::string what = "inputs.images: " + r.name;
     if (!image.data) return invalidArgument(what + " has no data");
     if (image.extent != r.extent)
-        return invalidArgument(what + " is " + detail::toText(image.extent) + "; " + detail::toText(r.extent) +
-                               " was expected");
+        return invalidArgument(what + " is " + detail::toText(image.extent) + "; " +
+                               detail::toText(r.extent) + " was expected");
     if (image.channels < r.channels || image.channels > 4)
         return invalidArgument(what + " has " + std::to_string(image.channels) + " channels; " +
                                std::to_string(r.channels) + " to 4 were expected");
     const ptrdiff_t size = sizeOf(image.scalar);
     const bool aligned = reinterpret_cast<uintptr_t>(image.data) % size_t(size) == 0 &&
-                         image.pixelStride % size == 0 && image.rowStride % size == 0 && image.channelStride % size == 0;
+                         image.pixelStride % size == 0 && image.rowStride % size == 0 &&
+                         image.channelStride % size == 0;
     if (!aligned || image.pixelStride == 0 || (image.rowStride == 0 && image.extent.height > 1))
         return invalidArgument(what + " has strides of " + std::to_string(image.pixelStride) + ", " +
-                               std::to_string(image.rowStride) + " and " + std::to_string(image.channelStride) +
-                               " bytes; multiples of " + std::to_string(size) + ", not zero, were expected");
+                               std::to_string(image.rowStride) + " and " +
+                               std::to_string(image.channelStride) + " bytes; multiples of " +
+                               std::to_string(size) + ", not zero, were expected");
     return {};
 }
 
@@ -64,7 +66,8 @@ void clearRowPadding(const Binding& image, int yBegin, int yEnd) {
     const ptrdiff_t plane = image.channelStride / ptrdiff_t(sizeof(float));
     for (int c = 0; c < image.channels; ++c)
         for (int y = yBegin; y < yEnd; ++y)
-            clearFloats(static_cast<float*>(image.data) + c * plane + y * stride + image.width, stride - image.width);
+            clearFloats(static_cast<float*>(image.data) + c * plane + y * stride + image.width,
+                        stride - image.width);
 }
 
 void runPass(const CompiledPass& pass, const std::array<Binding, slotCount>& slots,
@@ -72,7 +75,8 @@ void runPass(const CompiledPass& pass, const std::array<Binding, slotCount>& slo
     for (ResourceIndex r : pass.cleared) clearMargins(resources[size_t(r)]);
     const int tasks = (pass.grid.height + pass.rowsPerTask - 1) / pass.rowsPerTask;
     parallelFor(tasks, [&](int task) {
-        const int yBegin = task * pass.rowsPerTask, yEnd = std::min(yBegin + pass.rowsPerTask, pass.grid.height);
+        const int yBegin = task * pass.rowsPerTask,
+                  yEnd = std::min(yBegin + pass.rowsPerTask, pass.grid.height);
         pass.run(slots.data(), pass.grid.width, yBegin, yEnd);
         for (ResourceIndex r : pass.cleared) clearRowPadding(resources[size_t(r)], yBegin, yEnd);
     });
@@ -125,7 +129,8 @@ Result<> Program::record(const FrameInputs<Image>& inputs) {
         }
         runPass(pass, slots, state->resources, state->device->parallelFor);
         if (state->device->timings) {
-            const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+            const std::chrono::duration<double, std::milli> elapsed =
+                std::chrono::steady_clock::now() - start;
             state->timings.push_back({state->plan.passes[i].label, elapsed.count()});
         }
         if (state->passCallback) state->passCallback(int(i));
@@ -169,8 +174,8 @@ Result<> Program::writeTransient(std::string_view name, std::span<const float> t
     if (!binding) return binding.error();
     const size_t count = size_t(binding->width) * size_t(binding->height) * size_t(binding->channels);
     if (texels.size() != count)
-        return invalidArgument("texels: " + std::string(name) + " takes " + std::to_string(count) + " floats, not " +
-                               std::to_string(texels.size()));
+        return invalidArgument("texels: " + std::string(name) + " takes " + std::to_string(count) +
+                               " floats, not " + std::to_string(texels.size()));
     size_t next = 0;
     visitTexels(*binding, [&](char* texel) { std::memcpy(texel, &texels[next++], sizeof(float)); });
     return {};

@@ -36,7 +36,8 @@ struct CompiledPass {
     RunRows run = nullptr;
     std::array<Binding, slotCount> slots{}; // complete but for what the host hands in with each frame
     std::vector<PassBinding> external;      // bindings that record() completes
-    std::vector<ResourceIndex> cleared;     // transients that the pass writes: their padding is to be zero afterwards
+    std::vector<ResourceIndex>
+        cleared; // transients that the pass writes: their padding is to be zero afterwards
     Extent2D grid;
     int rowsPerTask = 1;
 };
@@ -45,8 +46,8 @@ struct Program::State {
     std::shared_ptr<const Device::Shared> device;
     Plan plan;
     MemoryUse use;
-    AlignedMemory memory;             // transients, then buffers
-    std::vector<Binding> resources;   // by resource of the plan; those of the host without data
+    AlignedMemory memory;           // transients, then buffers
+    std::vector<Binding> resources; // by resource of the plan; those of the host without data
     std::vector<CompiledPass> passes;
     std::vector<PassTiming> timings;
     std::function<void(int)> passCallback;

@@ -21,9 +21,9 @@ struct ThreadPool::State {
     const std::function<void(int)>* body = nullptr;
     int count = 0;
     std::atomic<int> next{0};
-    unsigned generation = 0;     // counts calls of run(), modulo its range
-    int busy = 0;                // threads that have not finished the current generation
-    std::exception_ptr thrown;   // the first that a body threw in the current generation
+    unsigned generation = 0;   // counts calls of run(), modulo its range
+    int busy = 0;              // threads that have not finished the current generation
+    std::exception_ptr thrown; // the first that a body threw in the current generation
     bool stopping = false;
 
     void drain() {

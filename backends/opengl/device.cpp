@@ -31,10 +31,8 @@ Result<> checkResources(const Plan& plan, const Limits& limits) {
 Result<> checkCounts(const Shader& shader, const Limits& limits) {
     const UnitCounts counts = unitsOf(shader.info).counts;
     const std::string what = "the kernel " + std::string(shader.name) + " uses ";
-    if (counts.textures > limits.textures)
-        return exceeds(what, counts.textures, "textures", limits.textures);
-    if (counts.images > limits.images)
-        return exceeds(what, counts.images, "images to write", limits.images);
+    if (counts.textures > limits.textures) return exceeds(what, counts.textures, "textures", limits.textures);
+    if (counts.images > limits.images) return exceeds(what, counts.images, "images to write", limits.images);
     if (counts.uniformBlocks > limits.uniformBlocks)
         return exceeds(what, counts.uniformBlocks, "uniform blocks", limits.uniformBlocks);
     if (counts.storageBlocks > limits.storageBlocks)
@@ -58,13 +56,11 @@ Result<> checkBlocks(const Plan& plan, const Pass& pass, const Shader& shader, c
 Result<> checkFormats(const Plan& plan, const Pass& pass, const Shader& shader,
                       std::vector<std::optional<Format>>& outputs) {
     for (const PassBinding& b : pass.bindings) {
-        if (b.access == Access::read)
-            continue;
+        if (b.access == Access::read) continue;
         const Resource& r = plan.resources[size_t(b.resource)];
         const Format declared = shader.formats[b.slot];
         std::optional<Format>& output = outputs[size_t(b.resource)];
-        if (!output)
-            output = r.kind == ResourceKind::transient ? r.format : declared;
+        if (!output) output = r.kind == ResourceKind::transient ? r.format : declared;
         if (declared != *output)
             return invalidArgument("plan.passes: " + pass.label + " writes " + r.name + ", which is " +
                                    name(*output) + ", to slot " + std::to_string(b.slot) + " of " +
@@ -75,24 +71,18 @@ Result<> checkFormats(const Plan& plan, const Pass& pass, const Shader& shader,
 
 // All that can be said without asking OpenGL.
 Result<> checkPlan(const Device::Shared& device, const Plan& plan, Program::State& state) {
-    if (auto valid = validate(plan); !valid)
-        return valid.error();
+    if (auto valid = validate(plan); !valid) return valid.error();
     const Limits& limits = device.gl->limits;
-    if (auto valid = checkResources(plan, limits); !valid)
-        return valid.error();
+    if (auto valid = checkResources(plan, limits); !valid) return valid.error();
     std::vector<std::optional<Format>> formats(plan.resources.size());
     for (const Pass& pass : plan.passes) {
         const Shader* shader = detail::findShader(device.shaders, pass.kernel);
-        if (!shader)
-            return detail::unknownKernel(pass);
+        if (!shader) return detail::unknownKernel(pass);
         if (auto valid = detail::checkKernelUse(plan, pass, shader->name, shader->info); !valid)
             return valid.error();
-        if (auto valid = checkCounts(*shader, limits); !valid)
-            return valid.error();
-        if (auto valid = checkBlocks(plan, pass, *shader, limits); !valid)
-            return valid.error();
-        if (auto valid = checkFormats(plan, pass, *shader, formats); !valid)
-            return valid.error();
+        if (auto valid = checkCounts(*shader, limits); !valid) return valid.error();
+        if (auto valid = checkBlocks(plan, pass, *shader, limits); !valid) return valid.error();
+        if (auto valid = checkFormats(plan, pass, *shader, formats); !valid) return valid.error();
     }
     for (size_t i = 0; i < formats.size(); ++i)
         state.outputFormats.push_back(formats[i].value_or(plan.resources[i].format));
@@ -103,8 +93,7 @@ Result<> checkContext(const Gl& gl) {
     const bool isCurrent = gl.GetString(GL_VERSION) != nullptr;
     // Reading an error clears it: so it is handed on, for the host to know.
     const GLenum error = gl.GetError();
-    if (error == GL_CONTEXT_LOST)
-        return gl.lost(compiling, error);
+    if (error == GL_CONTEXT_LOST) return gl.lost(compiling, error);
     if (!isCurrent)
         return invalidArgument(
             "no OpenGL context is current; the one that the device was created in was expected");
@@ -121,8 +110,7 @@ Result<CompiledPass> compilePass(const Device::Shared& device, const Plan& plan,
     compiled.program = known.lock();
     if (!compiled.program) {
         auto built = buildProgram(device.gl, *shader, pass.features);
-        if (!built)
-            return built.error();
+        if (!built) return built.error();
         known = compiled.program = *built;
     }
     // Once more, now that sizes are known.
@@ -176,10 +164,8 @@ void createBuffers(Program::State& state) {
 
 Result<> checkAllocations(const Gl& gl, const MemoryUse& use) {
     const GLenum error = gl.GetError();
-    if (error == GL_NO_ERROR)
-        return {};
-    if (error == GL_CONTEXT_LOST)
-        return gl.lost(compiling, error);
+    if (error == GL_NO_ERROR) return {};
+    if (error == GL_CONTEXT_LOST) return gl.lost(compiling, error);
     if (error == GL_OUT_OF_MEMORY)
         return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(use.total()) +
                                                  " bytes, which OpenGL could not allocate"};
@@ -191,10 +177,8 @@ Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared,
     state->device = shared;
     state->gl = shared->gl;
     const Gl& gl = *shared->gl;
-    if (auto valid = checkPlan(*shared, plan, *state); !valid)
-        return valid.error();
-    if (auto valid = checkContext(gl); !valid)
-        return valid.error();
+    if (auto valid = checkPlan(*shared, plan, *state); !valid) return valid.error();
+    if (auto valid = checkContext(gl); !valid) return valid.error();
     state->plan = plan;
     state->memory = planMemory(plan, gl.limits.alignment);
     const StateGuard guard(gl, {1, 0, 0, 0});
@@ -202,8 +186,7 @@ Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared,
     state->units.textures = 1; // that images are checked on
     for (size_t i = 0; i < plan.passes.size(); ++i) {
         auto compiled = compilePass(*shared, plan, plan.passes[i], barriers[i]);
-        if (!compiled)
-            return compiled.error();
+        if (!compiled) return compiled.error();
         UnitCounts& most = state->units;
         const UnitCounts& counts = compiled->program->units.counts;
         most.textures = std::max(most.textures, counts.textures);
@@ -214,10 +197,8 @@ Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared,
     }
     createTextures(*state);
     createBuffers(*state);
-    if (shared->timings)
-        state->timer.emplace(state->gl, plan);
-    if (auto allocated = checkAllocations(gl, state->memory.use); !allocated)
-        return allocated.error();
+    if (shared->timings) state->timer.emplace(state->gl, plan);
+    if (auto allocated = checkAllocations(gl, state->memory.use); !allocated) return allocated.error();
     return Program(std::move(state));
 }
 
@@ -225,8 +206,7 @@ Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared,
 
 Result<Device> Device::create(const DeviceOptions& options) {
     auto gl = Gl::load(options.loader);
-    if (!gl)
-        return gl.error();
+    if (!gl) return gl.error();
     auto shared = std::make_shared<Shared>();
     shared->gl = *gl;
     shared->timings = options.timings && (*gl)->QueryCounter;
@@ -237,24 +217,18 @@ Result<Device> Device::create(const DeviceOptions& options) {
     return device;
 }
 
-bool Device::isEs() const {
-    return shared->gl->es;
-}
-bool Device::hasTimings() const {
-    return shared->timings;
-}
+bool Device::isEs() const { return shared->gl->es; }
+bool Device::hasTimings() const { return shared->timings; }
 
 MemoryUse Device::memoryUse(const Plan& plan) const {
     return validate(plan) ? planMemory(plan, shared->gl->limits.alignment).use : MemoryUse{};
 }
 
 Result<Program> Device::compile(const Plan& plan) const {
-    if (auto present = shared->gl->checkPresent(compiling); !present)
-        return present.error();
+    if (auto present = shared->gl->checkPresent(compiling); !present) return present.error();
     auto program = compilePlan(shared, plan);
     // A context that was lost meanwhile refuses shaders, or says nothing at all.
-    if (auto present = shared->gl->checkPresent(compiling); !present)
-        return present.error();
+    if (auto present = shared->gl->checkPresent(compiling); !present) return present.error();
     return program;
 }
 

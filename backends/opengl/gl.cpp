@@ -22,16 +22,14 @@ Error missingFunction(const std::string& name) {
 // "4.6.0 NVIDIA 535.54" or "OpenGL ES 3.2 Mesa 22.3.6".
 Result<> readVersion(Gl& gl) {
     const char* text = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
-    if (!text && gl.GetError && gl.GetError() == GL_CONTEXT_LOST)
-        return gl.lost(creating, GL_CONTEXT_LOST);
+    if (!text && gl.GetError && gl.GetError() == GL_CONTEXT_LOST) return gl.lost(creating, GL_CONTEXT_LOST);
     if (!text)
         return invalidArgument(
             "no OpenGL context is current; one of OpenGL 4.3 or OpenGL ES 3.1 was expected");
     std::string_view rest = text;
     constexpr std::string_view es = "OpenGL ES ";
     gl.es = rest.starts_with(es);
-    if (gl.es)
-        rest.remove_prefix(es.size());
+    if (gl.es) rest.remove_prefix(es.size());
     int major = 0, minor = 0;
     if (std::sscanf(std::string(rest).c_str(), "%d.%d", &major, &minor) != 2)
         return Error{ErrorCode::unsupported, std::string("the context's version is \"") + text +
@@ -48,8 +46,7 @@ Result<> readVersion(Gl& gl) {
 Result<> findFunctions(Gl& gl, const Loader& loader) {
 #define REBOUND_GL_FIND(type, name)                                                                          \
     find(loader, gl.name, "gl" #name);                                                                       \
-    if (!gl.name)                                                                                            \
-        return missingFunction("gl" #name);
+    if (!gl.name) return missingFunction("gl" #name);
     REBOUND_GL_FUNCTIONS(REBOUND_GL_FIND)
 #undef REBOUND_GL_FIND
     return {};
@@ -59,8 +56,7 @@ bool hasExtension(const Gl& gl, std::string_view wanted) {
     const int count = gl.integer(GL_NUM_EXTENSIONS);
     for (int i = 0; i < count; ++i) {
         const GLubyte* name = gl.GetStringi(GL_EXTENSIONS, GLuint(i));
-        if (name && wanted == reinterpret_cast<const char*>(name))
-            return true;
+        if (name && wanted == reinterpret_cast<const char*>(name)) return true;
     }
     return false;
 }
@@ -68,41 +64,34 @@ bool hasExtension(const Gl& gl, std::string_view wanted) {
 // Part of OpenGL 4.3 and OpenGL ES 3.2; before, an extension whose functions have a suffix.
 void findDebug(Gl& gl, const Loader& loader) {
     const bool core = !gl.es || gl.version >= 32;
-    if (!core && !hasExtension(gl, "GL_KHR_debug"))
-        return;
+    if (!core && !hasExtension(gl, "GL_KHR_debug")) return;
     const std::string suffix = core ? "" : "KHR";
     find(loader, gl.PushDebugGroup, "glPushDebugGroup" + suffix);
     find(loader, gl.PopDebugGroup, "glPopDebugGroup" + suffix);
     find(loader, gl.ObjectLabel, "glObjectLabel" + suffix);
-    if (!gl.PopDebugGroup)
-        gl.PushDebugGroup = nullptr;
+    if (!gl.PopDebugGroup) gl.PushDebugGroup = nullptr;
     gl.limits.debugGroups = gl.integer(GL_MAX_DEBUG_GROUP_STACK_DEPTH);
     gl.limits.labelLength =
         std::min(gl.integer(GL_MAX_LABEL_LENGTH), gl.integer(GL_MAX_DEBUG_MESSAGE_LENGTH)) - 1;
 }
 
 void findTimestamps(Gl& gl, const Loader& loader) {
-    if (gl.es && !hasExtension(gl, "GL_EXT_disjoint_timer_query"))
-        return;
+    if (gl.es && !hasExtension(gl, "GL_EXT_disjoint_timer_query")) return;
     const std::string suffix = gl.es ? "EXT" : "";
     PFNGLGETQUERYIVPROC getQueryiv = nullptr;
     find(loader, getQueryiv, "glGetQueryiv" + suffix);
     GLint bits = 0;
-    if (getQueryiv)
-        getQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
-    if (bits == 0)
-        return; // the context says that it has none
+    if (getQueryiv) getQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+    if (bits == 0) return; // the context says that it has none
     find(loader, gl.QueryCounter, "glQueryCounter" + suffix);
     find(loader, gl.GetQueryObjectui64v, "glGetQueryObjectui64v" + suffix);
-    if (!gl.GetQueryObjectui64v)
-        gl.QueryCounter = nullptr;
+    if (!gl.GetQueryObjectui64v) gl.QueryCounter = nullptr;
 }
 
 // Part of OpenGL 4.5 and OpenGL ES 3.2; before, of several extensions.
 void findResetStatus(Gl& gl, const Loader& loader) {
     const std::string name = "glGetGraphicsResetStatus";
-    if (gl.version >= (gl.es ? 32 : 45))
-        find(loader, gl.GetGraphicsResetStatus, name);
+    if (gl.version >= (gl.es ? 32 : 45)) find(loader, gl.GetGraphicsResetStatus, name);
     else if (hasExtension(gl, "GL_KHR_robustness"))
         find(loader, gl.GetGraphicsResetStatus, name + (gl.es ? "KHR" : ""));
     else if (hasExtension(gl, gl.es ? "GL_EXT_robustness" : "GL_ARB_robustness"))
@@ -134,30 +123,24 @@ Result<std::shared_ptr<const Gl>> Gl::load(const Loader& loader) {
             "options.loader is empty; a function that finds OpenGL's functions was expected");
     auto gl = std::make_shared<Gl>();
     find(loader, gl->GetString, "glGetString");
-    if (!gl->GetString)
-        return missingFunction("glGetString");
+    if (!gl->GetString) return missingFunction("glGetString");
     find(loader, gl->GetError, "glGetError");
     // Before all other functions: a context that is too old lacks some.
-    if (auto version = readVersion(*gl); !version)
-        return version.error();
-    if (auto found = findFunctions(*gl, loader); !found)
-        return found.error();
+    if (auto version = readVersion(*gl); !version) return version.error();
+    if (auto found = findFunctions(*gl, loader); !found) return found.error();
     readLimits(*gl);
     findDebug(*gl, loader);
     findTimestamps(*gl, loader);
     findResetStatus(*gl, loader);
     // A context that was lost meanwhile has told nothing but zeros.
-    if (auto present = gl->checkPresent(creating); !present)
-        return present.error();
+    if (auto present = gl->checkPresent(creating); !present) return present.error();
     return std::shared_ptr<const Gl>(std::move(gl));
 }
 
 Result<> Gl::checkPresent(const char* doing) const {
-    if (auto present = loss.check(); !present)
-        return present;
+    if (auto present = loss.check(); !present) return present;
     const GLenum status = GetGraphicsResetStatus ? GetGraphicsResetStatus() : GLenum(GL_NO_ERROR);
-    if (status != GL_NO_ERROR)
-        return lost(doing, status);
+    if (status != GL_NO_ERROR) return lost(doing, status);
     return {};
 }
 

@@ -21,8 +21,7 @@ int textureParameter(const Gl& gl, GLenum name) {
 
 std::string hexadecimal(int value) {
     std::string text;
-    for (int shift = 12; shift >= 0; shift -= 4)
-        text += "0123456789ABCDEF"[value >> shift & 15];
+    for (int shift = 12; shift >= 0; shift -= 4) text += "0123456789ABCDEF"[value >> shift & 15];
     return "0x" + text;
 }
 
@@ -30,8 +29,7 @@ std::string hexadecimal(int value) {
 bool bindTexture(const Gl& gl, GLuint texture) {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     gl.BindTexture(GL_TEXTURE_2D, texture);
-    if (GLuint(gl.integer(GL_TEXTURE_BINDING_2D)) == texture)
-        return true;
+    if (GLuint(gl.integer(GL_TEXTURE_BINDING_2D)) == texture) return true;
     gl.GetError(); // the one that this has caused; it is reported by name
     return false;
 }
@@ -83,13 +81,10 @@ Result<> checkAlone(const Plan& plan, size_t output, const std::vector<const Ima
 
 Result<> checkImage(const Gl& gl, const Resource& r, GLuint texture, Format outputFormat) {
     const std::string what = "inputs.images: " + r.name;
-    if (texture == 0)
-        return invalidArgument(what + " is texture 0; a GL_TEXTURE_2D was expected");
+    if (texture == 0) return invalidArgument(what + " is texture 0; a GL_TEXTURE_2D was expected");
     const std::string named = what + ", texture " + std::to_string(texture) + ",";
-    if (!gl.IsTexture(texture))
-        return invalidArgument(named + " does not exist or has been deleted");
-    if (!bindTexture(gl, texture))
-        return invalidArgument(named + " is no GL_TEXTURE_2D");
+    if (!gl.IsTexture(texture)) return invalidArgument(named + " does not exist or has been deleted");
+    if (!bindTexture(gl, texture)) return invalidArgument(named + " is no GL_TEXTURE_2D");
     const Extent2D extent{levelParameter(gl, GL_TEXTURE_WIDTH), levelParameter(gl, GL_TEXTURE_HEIGHT)};
     if (extent != r.extent)
         return invalidArgument(what + " is " + detail::toText(extent) + "; " + detail::toText(r.extent) +
@@ -106,15 +101,11 @@ GLenum internalFormat(Format f) {
 Result<> checkImages(const Gl& gl, const Plan& plan, const std::vector<const Image*>& images,
                      const std::vector<Format>& formats) {
     for (size_t i = 0; i < plan.resources.size(); ++i) {
-        if (!images[i])
-            continue;
+        if (!images[i]) continue;
         const Resource& r = plan.resources[i];
-        if (auto valid = checkImage(gl, r, images[i]->texture, formats[i]); !valid)
-            return valid.error();
-        if (r.kind != ResourceKind::output)
-            continue;
-        if (auto alone = checkAlone(plan, i, images); !alone)
-            return alone.error();
+        if (auto valid = checkImage(gl, r, images[i]->texture, formats[i]); !valid) return valid.error();
+        if (r.kind != ResourceKind::output) continue;
+        if (auto alone = checkAlone(plan, i, images); !alone) return alone.error();
     }
     return {};
 }

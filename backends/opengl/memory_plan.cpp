@@ -10,16 +10,13 @@ size_t sizeOf(Format format, Extent2D e) {
     return bytesPerTexel(format) * size_t(e.width) * size_t(e.height);
 }
 
-size_t aligned(size_t size, size_t alignment) {
-    return (size + alignment - 1) / alignment * alignment;
-}
+size_t aligned(size_t size, size_t alignment) { return (size + alignment - 1) / alignment * alignment; }
 
 void shareTextures(const Plan& plan, MemoryPlan& memory) {
     const std::vector<Lifetime> lives = lifetimes(plan);
     std::vector<size_t> order;
     for (size_t i = 0; i < plan.resources.size(); ++i)
-        if (plan.resources[i].kind == ResourceKind::transient && lives[i].last >= 0)
-            order.push_back(i);
+        if (plan.resources[i].kind == ResourceKind::transient && lives[i].last >= 0) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](size_t a, size_t b) { return lives[a].first < lives[b].first; });
     memory.textureOf.assign(plan.resources.size(), -1);
@@ -52,8 +49,7 @@ MemoryPlan planMemory(const Plan& plan, size_t alignment) {
                         : r.kind == ResourceKind::frameConstants ? &memory.frameConstants
                                                                  : nullptr;
         memory.bufferOffsets.push_back(total ? *total : 0);
-        if (total)
-            *total += aligned(r.size, alignment);
+        if (total) *total += aligned(r.size, alignment);
     }
     memory.use.buffers = memory.buffers + memory.frameConstants;
     return memory;

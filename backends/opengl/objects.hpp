@@ -42,8 +42,7 @@ public:
         return *this;
     }
     ~Object() {
-        if (object == 0)
-            return;
+        if (object == 0) return;
         switch (kind) {
         case ObjectKind::texture:
             gl->DeleteTextures(1, &object);

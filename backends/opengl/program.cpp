@@ -18,8 +18,7 @@ public:
                               std::min(GLsizei(label.size()), gl.limits.labelLength), label.data());
     }
     ~DebugGroup() {
-        if (isOpen)
-            gl.PopDebugGroup();
+        if (isOpen) gl.PopDebugGroup();
     }
     DebugGroup(const DebugGroup&) = delete;
     DebugGroup& operator=(const DebugGroup&) = delete;
@@ -33,8 +32,7 @@ using Inputs = detail::ResolvedInputs<Image>;
 
 // New storage in each frame: the driver keeps the old one for as long as the GPU reads it, and nobody waits.
 void uploadConstants(const Program::State& state, const Inputs& inputs) {
-    if (state.memory.frameConstants == 0)
-        return;
+    if (state.memory.frameConstants == 0) return;
     std::vector<std::byte> bytes(state.memory.frameConstants);
     for (size_t i = 0; i < inputs.constants.size(); ++i)
         if (inputs.constants[i])
@@ -45,8 +43,7 @@ void uploadConstants(const Program::State& state, const Inputs& inputs) {
 }
 
 GLuint textureOf(const Program::State& state, ResourceIndex resource, const Inputs& inputs) {
-    if (const Image* image = inputs.images[size_t(resource)])
-        return image->texture;
+    if (const Image* image = inputs.images[size_t(resource)]) return image->texture;
     return state.textures[size_t(state.memory.textureOf[size_t(resource)])].name();
 }
 
@@ -87,19 +84,16 @@ void runPass(const Program::State& state, size_t index, const Inputs& inputs) {
     const Gl& gl = *state.gl;
     const CompiledPass& pass = state.passes[index];
     const DebugGroup group(gl, state.plan.passes[index].label);
-    if (pass.barrierBefore != 0)
-        gl.MemoryBarrier(pass.barrierBefore);
+    if (pass.barrierBefore != 0) gl.MemoryBarrier(pass.barrierBefore);
     gl.UseProgram(pass.program->program.name());
-    for (const CompiledPass::Slot& slot : pass.slots)
-        bindSlot(state, slot, inputs);
+    for (const CompiledPass::Slot& slot : pass.slots) bindSlot(state, slot, inputs);
     gl.DispatchCompute(pass.groups[0], pass.groups[1], 1);
 }
 
 Result<> recordFrame(Program::State& state, const FrameInputs<Image>& inputs) {
     const Gl& gl = *state.gl;
     auto resolved = detail::resolveInputs(state.plan, inputs);
-    if (!resolved)
-        return resolved.error();
+    if (!resolved) return resolved.error();
     if (!state.passes.empty() && !gl.IsProgram(state.passes[0].program->program.name()))
         return invalidArgument(
             "the current OpenGL context is none, is lost, or does not know this program; the one that it was "
@@ -111,19 +105,16 @@ Result<> recordFrame(Program::State& state, const FrameInputs<Image>& inputs) {
 
     const DebugGroup group(gl, state.plan.technique);
     uploadConstants(state, *resolved);
-    if (state.timer)
-        state.timer->beginFrame();
+    if (state.timer) state.timer->beginFrame();
     for (size_t i = 0; i < state.passes.size(); ++i) {
         runPass(state, i, *resolved);
-        if (state.timer)
-            state.timer->endPass();
+        if (state.timer) state.timer->endPass();
         if (state.passCallback) {
             gl.MemoryBarrier(barrierForHost);
             state.passCallback(int(i));
         }
     }
-    if (state.timer)
-        state.timer->endFrame();
+    if (state.timer) state.timer->endFrame();
     gl.MemoryBarrier(barrierForHost);
     return {};
 }
@@ -135,15 +126,9 @@ Program::~Program() = default;
 Program::Program(Program&&) noexcept = default;
 Program& Program::operator=(Program&&) noexcept = default;
 
-const Plan& Program::plan() const {
-    return state->plan;
-}
-MemoryUse Program::memoryUse() const {
-    return state->memory.use;
-}
-void Program::onPass(std::function<void(int)> callback) {
-    state->passCallback = std::move(callback);
-}
+const Plan& Program::plan() const { return state->plan; }
+MemoryUse Program::memoryUse() const { return state->memory.use; }
+void Program::onPass(std::function<void(int)> callback) { state->passCallback = std::move(callback); }
 
 const std::vector<PassTiming>& Program::timings() const {
     static const std::vector<PassTiming> none;
@@ -152,8 +137,7 @@ const std::vector<PassTiming>& Program::timings() const {
 
 Result<> Program::record(const FrameInputs<Image>& inputs) {
     constexpr const char* recording = "recording a frame";
-    if (auto present = state->gl->checkPresent(recording); !present)
-        return present;
+    if (auto present = state->gl->checkPresent(recording); !present) return present;
     auto recorded = recordFrame(*state, inputs);
     // A context that was lost meanwhile knows no program and no texture, and the timer may have found out.
     if (auto present = recorded ? state->gl->loss.check() : state->gl->checkPresent(recording); !present)

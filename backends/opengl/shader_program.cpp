@@ -13,10 +13,8 @@ std::string oneLine(std::string_view log) {
     for (char c : log)
         if (const bool blank = c == '\0' || c == '\n' || c == '\r' || c == '\t' || c == ' '; !blank)
             line += c;
-        else if (!line.empty() && line.back() != ' ')
-            line += ' ';
-    while (!line.empty() && line.back() == ' ')
-        line.pop_back();
+        else if (!line.empty() && line.back() != ' ') line += ' ';
+    while (!line.empty() && line.back() == ' ') line.pop_back();
     return line.empty() ? "(no reason given)" : line;
 }
 
@@ -34,13 +32,10 @@ Result<> attachShader(const Gl& gl, GLuint program, const Shader& shader, const 
     gl.GetShaderiv(object, GL_COMPILE_STATUS, &compiled);
     gl.GetShaderiv(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(compiled ? 0 : size_t(std::max(length, 0)), '\0');
-    if (!log.empty())
-        gl.GetShaderInfoLog(object, GLsizei(log.size()), nullptr, log.data());
-    if (compiled)
-        gl.AttachShader(program, object);
+    if (!log.empty()) gl.GetShaderInfoLog(object, GLsizei(log.size()), nullptr, log.data());
+    if (compiled) gl.AttachShader(program, object);
     gl.DeleteShader(object); // once its program has gone as well
-    if (!compiled)
-        return refused(shader, "compile", log);
+    if (!compiled) return refused(shader, "compile", log);
     return {};
 }
 
@@ -48,12 +43,10 @@ Result<> link(const Gl& gl, GLuint program, const Shader& shader) {
     gl.LinkProgram(program);
     GLint linked = 0, length = 0;
     gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked)
-        return {};
+    if (linked) return {};
     gl.GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
     std::string log(size_t(std::max(length, 0)), '\0');
-    if (!log.empty())
-        gl.GetProgramInfoLog(program, GLsizei(log.size()), nullptr, log.data());
+    if (!log.empty()) gl.GetProgramInfoLog(program, GLsizei(log.size()), nullptr, log.data());
     return refused(shader, "link", log);
 }
 
@@ -76,8 +69,7 @@ void readSizes(const Gl& gl, ShaderProgram& p, GLenum interface, BindingKind kin
 
 Units unitsOf(const KernelInfo& info) {
     Units units;
-    for (int slot = 0; slot < slotCount; ++slot)
-        switch (info.kinds[slot]) {
+    for (int slot = 0; slot < slotCount; ++slot) switch (info.kinds[slot]) {
         case BindingKind::none:
             break;
         case BindingKind::texture:
@@ -129,8 +121,7 @@ buildProgram(const std::shared_ptr<const Gl>& gl, const Shader& shader, const st
     const GLuint name = built->program.name();
     if (auto attached = attachShader(*gl, name, shader, sourceOf(shader, features, gl->es)); !attached)
         return attached.error();
-    if (auto linked = link(*gl, name, shader); !linked)
-        return linked.error();
+    if (auto linked = link(*gl, name, shader); !linked) return linked.error();
     gl->label(GL_PROGRAM, name, shader.name);
     readSizes(*gl, *built, GL_UNIFORM_BLOCK, BindingKind::constants);
     readSizes(*gl, *built, GL_SHADER_STORAGE_BLOCK, BindingKind::buffer);

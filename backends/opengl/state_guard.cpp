@@ -63,8 +63,7 @@ StateGuard::BufferBindings StateGuard::saved(GLenum target, GLenum binding, GLen
 void StateGuard::restore(const BufferBindings& bindings) const {
     for (size_t i = 0; i < bindings.indexed.size(); ++i) {
         const BufferRange& range = bindings.indexed[i];
-        if (range.size == 0)
-            gl.BindBufferBase(bindings.target, GLuint(i), range.buffer);
+        if (range.size == 0) gl.BindBufferBase(bindings.target, GLuint(i), range.buffer);
         else
             gl.BindBufferRange(bindings.target, GLuint(i), range.buffer, GLintptr(range.start),
                                GLsizeiptr(range.size));

@@ -17,9 +17,9 @@ Result<> checkLimits(const Device::Shared& d, const Plan& plan) {
         const std::string what = "plan.resources: " + r.name;
         const uint32_t side = uint32_t(std::max(r.extent.width, r.extent.height));
         if (detail::isImage(r.kind) && side > d.limits.maxImageDimension2D)
-            return Error{ErrorCode::unsupported, what + " is " + detail::toText(r.extent) +
-                                                     "; this device's images have at most " +
-                                                     std::to_string(d.limits.maxImageDimension2D) + " texels a side"};
+            return Error{ErrorCode::unsupported,
+                         what + " is " + detail::toText(r.extent) + "; this device's images have at most " +
+                             std::to_string(d.limits.maxImageDimension2D) + " texels a side"};
         if (r.kind == ResourceKind::frameConstants && r.size > d.limits.maxUniformBufferRange)
             return Error{ErrorCode::unsupported, what + " has " + std::to_string(r.size) +
                                                      " bytes; this device's constants have at most " +
@@ -31,7 +31,8 @@ Result<> checkLimits(const Device::Shared& d, const Plan& plan) {
 Result<> checkPlan(const Device::Shared& d, const Plan& plan, const CompileOptions& options) {
     if (auto valid = validate(plan); !valid) return valid;
     if (options.framesInFlight < 1 || options.framesInFlight > 8)
-        return invalidArgument("framesInFlight is " + std::to_string(options.framesInFlight) + "; 1 to 8 was expected");
+        return invalidArgument("framesInFlight is " + std::to_string(options.framesInFlight) +
+                               "; 1 to 8 was expected");
     if (auto valid = checkLimits(d, plan); !valid) return valid;
     for (const Pass& pass : plan.passes) {
         const Shader* shader = detail::findShader(d.shaders, pass.kernel);
@@ -64,8 +65,9 @@ Result<> bindTransients(State& s, const State* sharing) {
         if (!t.image) continue;
         const Resource& r = s.plan.resources[i];
         const VkDeviceSize offset = s.transientMemory->block.offset + s.transients.layout.offsets[i];
-        if (auto bound = d.check(d.vk.BindImageMemory(d.device, t.image, s.transientMemory->block.memory, offset),
-                               "binding memory to " + r.name);
+        if (auto bound =
+                d.check(d.vk.BindImageMemory(d.device, t.image, s.transientMemory->block.memory, offset),
+                        "binding memory to " + r.name);
             !bound)
             return bound;
         auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
@@ -73,7 +75,8 @@ Result<> bindTransients(State& s, const State* sharing) {
         info.viewType = VK_IMAGE_VIEW_TYPE_2D;
         info.format = vulkanFormat(r.format);
         info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        if (auto made = d.check(d.vk.CreateImageView(d.device, &info, nullptr, &t.view), "creating a view of " + r.name);
+        if (auto made = d.check(d.vk.CreateImageView(d.device, &info, nullptr, &t.view),
+                                "creating a view of " + r.name);
             !made)
             return made;
     }
@@ -86,7 +89,9 @@ Result<> createBuffer(State& s) {
     auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = s.bufferLayout.size;
     info.usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    if (auto made = d.check(d.vk.CreateBuffer(d.device, &info, nullptr, &s.buffer), "creating a buffer"); !made) return made;
+    if (auto made = d.check(d.vk.CreateBuffer(d.device, &info, nullptr, &s.buffer), "creating a buffer");
+        !made)
+        return made;
     d.setName(VK_OBJECT_TYPE_BUFFER, handleBits(s.buffer), s.plan.technique + " buffers");
     MemoryRequest request;
     request.hostVisible = true;
@@ -97,10 +102,11 @@ Result<> createBuffer(State& s) {
     s.use.buffers = size_t(request.requirements.size);
     for (size_t i = 0; i < s.plan.resources.size(); ++i)
         if (const Resource& r = s.plan.resources[i]; r.kind == ResourceKind::buffer)
-            std::memcpy(static_cast<std::byte*>(s.bufferMemory->block.mapped) + s.bufferLayout.offsets[i], r.data.data(),
-                        r.size);
-    return d.check(d.vk.BindBufferMemory(d.device, s.buffer, s.bufferMemory->block.memory, s.bufferMemory->block.offset),
-                 "binding memory to a buffer");
+            std::memcpy(static_cast<std::byte*>(s.bufferMemory->block.mapped) + s.bufferLayout.offsets[i],
+                        r.data.data(), r.size);
+    return d.check(
+        d.vk.BindBufferMemory(d.device, s.buffer, s.bufferMemory->block.memory, s.bufferMemory->block.offset),
+        "binding memory to a buffer");
 }
 
 Result<> compilePasses(State& s) {
@@ -142,7 +148,7 @@ Result<> allocateSets(State& s) {
     pool.poolSizeCount = uint32_t(std::size(sizes));
     pool.pPoolSizes = sizes;
     if (auto made = d.check(d.vk.CreateDescriptorPool(d.device, &pool, nullptr, &s.descriptorPool),
-                          "creating a descriptor pool");
+                            "creating a descriptor pool");
         !made)
         return made;
     std::vector<VkDescriptorSetLayout> layouts;
@@ -173,11 +179,13 @@ void writeSet(const State& s, int frame, size_t passIndex) {
         write.descriptorCount = 1;
         write.descriptorType = descriptorType(shader.info.kinds[b.slot]);
         if (r.kind == ResourceKind::transient) {
-            images[i] = {VK_NULL_HANDLE, s.transients.images[size_t(b.resource)].view, VK_IMAGE_LAYOUT_GENERAL};
+            images[i] = {VK_NULL_HANDLE, s.transients.images[size_t(b.resource)].view,
+                         VK_IMAGE_LAYOUT_GENERAL};
             write.pImageInfo = &images[i];
         } else {
             VkDeviceSize offset = s.bufferLayout.offsets[size_t(b.resource)];
-            if (r.kind == ResourceKind::frameConstants) offset += s.bufferLayout.frameStride * VkDeviceSize(frame);
+            if (r.kind == ResourceKind::frameConstants)
+                offset += s.bufferLayout.frameStride * VkDeviceSize(frame);
             buffers[i] = {s.buffer, offset, r.size};
             write.pBufferInfo = &buffers[i];
         }
@@ -233,7 +241,8 @@ Result<Program> Device::compile(const Plan& plan, const CompileOptions& options)
     state->transients = *std::move(transients);
     state->use.transient = options.shareTransientsWith ? 0 : state->transients.layout.size;
     state->use.transientUnshared = state->transients.layout.sizeUnshared;
-    const Program::State* sharing = options.shareTransientsWith ? options.shareTransientsWith->state.get() : nullptr;
+    const Program::State* sharing =
+        options.shareTransientsWith ? options.shareTransientsWith->state.get() : nullptr;
     if (auto bound = bindTransients(*state, sharing); !bound) return bound.error();
     state->bufferLayout = layoutBuffers(*shared, plan, options.framesInFlight);
     if (auto made = createBuffer(*state); !made) return made.error();

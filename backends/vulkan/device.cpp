@@ -11,13 +11,20 @@ namespace {
 // The name of a result that says that something is short; null of others.
 const char* shortageOf(VkResult result) {
     switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
-    case VK_ERROR_FRAGMENTED_POOL: return "VK_ERROR_FRAGMENTED_POOL";
-    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
-    case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
-    default: return nullptr;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+        return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_FRAGMENTED_POOL:
+        return "VK_ERROR_FRAGMENTED_POOL";
+    case VK_ERROR_MEMORY_MAP_FAILED:
+        return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+        return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    default:
+        return nullptr;
     }
 }
 
@@ -39,11 +46,12 @@ Result<VkQueueFamilyProperties> queueFamilyOf(const Functions& vk, const DeviceO
     std::vector<VkQueueFamilyProperties> families(count);
     vk.GetPhysicalDeviceQueueFamilyProperties(o.physicalDevice, &count, families.data());
     if (o.queueFamily >= count)
-        return invalidArgument("queueFamily is " + std::to_string(o.queueFamily) + "; 0 to " + std::to_string(count - 1) +
-                               " was expected");
+        return invalidArgument("queueFamily is " + std::to_string(o.queueFamily) + "; 0 to " +
+                               std::to_string(count - 1) + " was expected");
     if (!(families[o.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT))
-        return Error{ErrorCode::unsupported, "queueFamily " + std::to_string(o.queueFamily) +
-                                                 " does not compute; one with VK_QUEUE_COMPUTE_BIT was expected"};
+        return Error{ErrorCode::unsupported,
+                     "queueFamily " + std::to_string(o.queueFamily) +
+                         " does not compute; one with VK_QUEUE_COMPUTE_BIT was expected"};
     return families[o.queueFamily];
 }
 
@@ -63,21 +71,24 @@ uint64_t checksumOf(std::span<const std::byte> bytes) {
 
 // The driver's bytes of a stored cache; none where it is spoilt, or was made by another driver or for another device:
 // those are refused by some drivers, and crash some.
-std::span<const std::byte> storedCache(std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties) {
+std::span<const std::byte> storedCache(std::span<const std::byte> bytes,
+                                       const VkPhysicalDeviceProperties& properties) {
     VkPipelineCacheHeaderVersionOne header;
     uint64_t checksum = 0;
     if (bytes.size() < sizeof header + sizeof checksum) return {};
     const auto driverBytes = bytes.first(bytes.size() - sizeof checksum);
     std::memcpy(&header, driverBytes.data(), sizeof header);
     std::memcpy(&checksum, driverBytes.data() + driverBytes.size(), sizeof checksum);
-    const bool usable = header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-                        header.vendorID == properties.vendorID && header.deviceID == properties.deviceID &&
-                        std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0 &&
-                        checksum == checksumOf(driverBytes);
+    const bool usable =
+        header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+        header.vendorID == properties.vendorID && header.deviceID == properties.deviceID &&
+        std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0 &&
+        checksum == checksumOf(driverBytes);
     return usable ? driverBytes : std::span<const std::byte>();
 }
 
-Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes, const VkPhysicalDeviceProperties& properties) {
+Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes,
+                     const VkPhysicalDeviceProperties& properties) {
     auto info = structure<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
     const auto stored = storedCache(bytes, properties);
     info.initialDataSize = stored.size();
@@ -90,8 +101,10 @@ Result<> createCache(Device::Shared& d, std::span<const std::byte> bytes, const 
 Result<> Device::Shared::check(VkResult result, const std::string& what) const {
     if (result == VK_SUCCESS) return {};
     if (result == VK_ERROR_DEVICE_LOST)
-        return loss.note(what + " failed with VK_ERROR_DEVICE_LOST: the device is lost, and what was made with it can only be "
-                                "destroyed");
+        return loss.note(
+            what +
+            " failed with VK_ERROR_DEVICE_LOST: the device is lost, and what was made with it can only be "
+            "destroyed");
     const char* name = shortageOf(result);
     return Error{name ? ErrorCode::outOfMemory : ErrorCode::unsupported,
                  what + " failed with " + (name ? name : "VkResult " + std::to_string(int(result)))};
@@ -120,7 +133,8 @@ void Device::Shared::setName(VkObjectType type, uint64_t handle, const std::stri
 
 Result<Device> Device::create(const DeviceOptions& options) {
     if (auto valid = checkHandles(options); !valid) return valid.error();
-    auto functions = Functions::load(options.getInstanceProcAddr, options.instance, options.device, options.debugUtils);
+    auto functions =
+        Functions::load(options.getInstanceProcAddr, options.instance, options.device, options.debugUtils);
     if (!functions) return functions.error();
     auto shared = std::make_shared<Shared>();
     shared->vk = *functions;
@@ -128,10 +142,10 @@ Result<Device> Device::create(const DeviceOptions& options) {
     VkPhysicalDeviceProperties properties;
     shared->vk.GetPhysicalDeviceProperties(options.physicalDevice, &properties);
     if (properties.apiVersion < VK_API_VERSION_1_1)
-        return Error{ErrorCode::unsupported, "physicalDevice has Vulkan " +
-                                                 std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
-                                                 std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) +
-                                                 "; 1.1 or later was expected"};
+        return Error{
+            ErrorCode::unsupported,
+            "physicalDevice has Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+                std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + "; 1.1 or later was expected"};
     auto family = queueFamilyOf(shared->vk, options);
     if (!family) return family.error();
     shared->limits = properties.limits;
@@ -151,7 +165,8 @@ Result<std::vector<std::byte>> Device::pipelineCache() const {
     const Shared& d = *shared;
     if (auto present = d.loss.check(); !present) return present.error();
     size_t size = 0;
-    if (auto asked = d.check(d.vk.GetPipelineCacheData(d.device, d.cache, &size, nullptr), "reading the pipeline cache");
+    if (auto asked = d.check(d.vk.GetPipelineCacheData(d.device, d.cache, &size, nullptr),
+                             "reading the pipeline cache");
         !asked)
         return asked.error();
     std::vector<std::byte> bytes(size);

@@ -27,13 +27,13 @@ struct Device::Shared {
     VkDevice device = VK_NULL_HANDLE;
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memoryTypes{};
-    uint32_t timestampBits = 0;   // 0: no timings
+    uint32_t timestampBits = 0; // 0: no timings
     MemoryAllocator allocator;
     std::vector<std::span<const Shader* const>> shaders;
     VkSampler sampler = VK_NULL_HANDLE;
     VkPipelineCache cache = VK_NULL_HANDLE;
 
-    std::mutex mutex;             // guards kernels
+    std::mutex mutex; // guards kernels
     std::map<const Shader*, Kernel> kernels;
 
     mutable detail::Loss loss;
@@ -57,10 +57,14 @@ uint64_t handleBits(Handle handle) {
 constexpr VkDescriptorType descriptorType(BindingKind kind) {
     switch (kind) {
     case BindingKind::image:
-    case BindingKind::output: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    case BindingKind::buffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case BindingKind::constants: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    default: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case BindingKind::output:
+        return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case BindingKind::buffer:
+        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BindingKind::constants:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    default:
+        return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     }
 }
 
@@ -75,7 +79,8 @@ struct OwnedMemory {
     OwnedMemory& operator=(const OwnedMemory&) = delete;
     ~OwnedMemory();
 };
-Result<std::shared_ptr<OwnedMemory>> allocateMemory(const std::shared_ptr<const Device::Shared>&, const MemoryRequest&);
+Result<std::shared_ptr<OwnedMemory>> allocateMemory(const std::shared_ptr<const Device::Shared>&,
+                                                    const MemoryRequest&);
 
 struct TransientImage {
     VkImage image = VK_NULL_HANDLE;
@@ -87,7 +92,7 @@ struct TransientImage {
 struct Transients {
     std::vector<TransientImage> images; // by resource; null where it is no transient that passes use
     TransientLayout layout;
-    VkMemoryRequirements block{};       // what the shared block needs; its size is 0 where there is none
+    VkMemoryRequirements block{}; // what the shared block needs; its size is 0 where there is none
 };
 
 // Where a plan's buffers and frame constants lie in one host-visible buffer.

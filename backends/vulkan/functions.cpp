@@ -5,15 +5,15 @@
 
 namespace rebound::vulkan {
 
-Result<Functions> Functions::load(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkDevice device,
-                                  bool debugUtils) {
+Result<Functions> Functions::load(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                                  VkDevice device, bool debugUtils) {
     Functions f;
     std::string missing;
-#define REBOUND_LOAD_INSTANCE(name)                                                                                    \
-    f.name = reinterpret_cast<PFN_vk##name>(getInstanceProcAddr(instance, "vk" #name));                                \
+#define REBOUND_LOAD_INSTANCE(name)                                                                          \
+    f.name = reinterpret_cast<PFN_vk##name>(getInstanceProcAddr(instance, "vk" #name));                      \
     if (!f.name) missing = "vk" #name;
-#define REBOUND_LOAD_DEVICE(name)                                                                                      \
-    f.name = reinterpret_cast<PFN_vk##name>(f.GetDeviceProcAddr(device, "vk" #name));                                  \
+#define REBOUND_LOAD_DEVICE(name)                                                                            \
+    f.name = reinterpret_cast<PFN_vk##name>(f.GetDeviceProcAddr(device, "vk" #name));                        \
     if (!f.name) missing = "vk" #name;
     REBOUND_VULKAN_INSTANCE_FUNCTIONS(REBOUND_LOAD_INSTANCE)
     if (missing.empty()) {
@@ -25,8 +25,10 @@ Result<Functions> Functions::load(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
 #undef REBOUND_LOAD_INSTANCE
 #undef REBOUND_LOAD_DEVICE
     if (!missing.empty())
-        return Error{ErrorCode::unsupported, "getInstanceProcAddr knows no " + missing +
-                                                 "; a function of Vulkan 1.1, or with debugUtils of VK_EXT_debug_utils, was expected"};
+        return Error{
+            ErrorCode::unsupported,
+            "getInstanceProcAddr knows no " + missing +
+                "; a function of Vulkan 1.1, or with debugUtils of VK_EXT_debug_utils, was expected"};
     return f;
 }
 

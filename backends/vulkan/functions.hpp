@@ -16,57 +16,57 @@ T structure(VkStructureType type) {
     return value;
 }
 
-#define REBOUND_VULKAN_INSTANCE_FUNCTIONS(F)                                                                             \
-    F(GetDeviceProcAddr)                                                                                               \
-    F(GetPhysicalDeviceProperties)                                                                                     \
-    F(GetPhysicalDeviceMemoryProperties)                                                                               \
+#define REBOUND_VULKAN_INSTANCE_FUNCTIONS(F)                                                                 \
+    F(GetDeviceProcAddr)                                                                                     \
+    F(GetPhysicalDeviceProperties)                                                                           \
+    F(GetPhysicalDeviceMemoryProperties)                                                                     \
     F(GetPhysicalDeviceQueueFamilyProperties)
 
-#define REBOUND_VULKAN_DEVICE_FUNCTIONS(F)                                                                               \
-    F(AllocateDescriptorSets)                                                                                          \
-    F(AllocateMemory)                                                                                                  \
-    F(BindBufferMemory)                                                                                                \
-    F(BindImageMemory)                                                                                                 \
-    F(CmdBindDescriptorSets)                                                                                           \
-    F(CmdBindPipeline)                                                                                                 \
-    F(CmdDispatch)                                                                                                     \
-    F(CmdPipelineBarrier)                                                                                              \
-    F(CmdResetQueryPool)                                                                                               \
-    F(CmdWriteTimestamp)                                                                                               \
-    F(CreateBuffer)                                                                                                    \
-    F(CreateComputePipelines)                                                                                          \
-    F(CreateDescriptorPool)                                                                                            \
-    F(CreateDescriptorSetLayout)                                                                                       \
-    F(CreateImage)                                                                                                     \
-    F(CreateImageView)                                                                                                 \
-    F(CreatePipelineCache)                                                                                             \
-    F(CreatePipelineLayout)                                                                                            \
-    F(CreateQueryPool)                                                                                                 \
-    F(CreateSampler)                                                                                                   \
-    F(CreateShaderModule)                                                                                              \
-    F(DestroyBuffer)                                                                                                   \
-    F(DestroyDescriptorPool)                                                                                           \
-    F(DestroyDescriptorSetLayout)                                                                                      \
-    F(DestroyImage)                                                                                                    \
-    F(DestroyImageView)                                                                                                \
-    F(DestroyPipeline)                                                                                                 \
-    F(DestroyPipelineCache)                                                                                            \
-    F(DestroyPipelineLayout)                                                                                           \
-    F(DestroyQueryPool)                                                                                                \
-    F(DestroySampler)                                                                                                  \
-    F(DestroyShaderModule)                                                                                             \
-    F(FreeMemory)                                                                                                      \
-    F(GetBufferMemoryRequirements)                                                                                     \
-    F(GetImageMemoryRequirements)                                                                                      \
-    F(GetPipelineCacheData)                                                                                            \
-    F(GetQueryPoolResults)                                                                                             \
-    F(MapMemory)                                                                                                       \
+#define REBOUND_VULKAN_DEVICE_FUNCTIONS(F)                                                                   \
+    F(AllocateDescriptorSets)                                                                                \
+    F(AllocateMemory)                                                                                        \
+    F(BindBufferMemory)                                                                                      \
+    F(BindImageMemory)                                                                                       \
+    F(CmdBindDescriptorSets)                                                                                 \
+    F(CmdBindPipeline)                                                                                       \
+    F(CmdDispatch)                                                                                           \
+    F(CmdPipelineBarrier)                                                                                    \
+    F(CmdResetQueryPool)                                                                                     \
+    F(CmdWriteTimestamp)                                                                                     \
+    F(CreateBuffer)                                                                                          \
+    F(CreateComputePipelines)                                                                                \
+    F(CreateDescriptorPool)                                                                                  \
+    F(CreateDescriptorSetLayout)                                                                             \
+    F(CreateImage)                                                                                           \
+    F(CreateImageView)                                                                                       \
+    F(CreatePipelineCache)                                                                                   \
+    F(CreatePipelineLayout)                                                                                  \
+    F(CreateQueryPool)                                                                                       \
+    F(CreateSampler)                                                                                         \
+    F(CreateShaderModule)                                                                                    \
+    F(DestroyBuffer)                                                                                         \
+    F(DestroyDescriptorPool)                                                                                 \
+    F(DestroyDescriptorSetLayout)                                                                            \
+    F(DestroyImage)                                                                                          \
+    F(DestroyImageView)                                                                                      \
+    F(DestroyPipeline)                                                                                       \
+    F(DestroyPipelineCache)                                                                                  \
+    F(DestroyPipelineLayout)                                                                                 \
+    F(DestroyQueryPool)                                                                                      \
+    F(DestroySampler)                                                                                        \
+    F(DestroyShaderModule)                                                                                   \
+    F(FreeMemory)                                                                                            \
+    F(GetBufferMemoryRequirements)                                                                           \
+    F(GetImageMemoryRequirements)                                                                            \
+    F(GetPipelineCacheData)                                                                                  \
+    F(GetQueryPoolResults)                                                                                   \
+    F(MapMemory)                                                                                             \
     F(UpdateDescriptorSets)
 
 // Null where the host has not enabled VK_EXT_debug_utils.
-#define REBOUND_VULKAN_DEBUG_FUNCTIONS(F)                                                                                \
-    F(CmdBeginDebugUtilsLabelEXT)                                                                                      \
-    F(CmdEndDebugUtilsLabelEXT)                                                                                        \
+#define REBOUND_VULKAN_DEBUG_FUNCTIONS(F)                                                                    \
+    F(CmdBeginDebugUtilsLabelEXT)                                                                            \
+    F(CmdEndDebugUtilsLabelEXT)                                                                              \
     F(SetDebugUtilsObjectNameEXT)
 
 struct Functions {

@@ -15,11 +15,12 @@ Result<> createSetLayout(const Device::Shared& d, const Shader& shader, Kernel& 
         if (b.descriptorType == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) b.pImmutableSamplers = &d.sampler;
         bindings.push_back(b);
     }
-    auto info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    auto info =
+        structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     info.bindingCount = uint32_t(bindings.size());
     info.pBindings = bindings.data();
     return d.check(d.vk.CreateDescriptorSetLayout(d.device, &info, nullptr, &kernel.setLayout),
-                 "creating the descriptor set layout of " + std::string(shader.name));
+                   "creating the descriptor set layout of " + std::string(shader.name));
 }
 
 // On failure the kernel keeps what was made; the device destroys it.
@@ -30,7 +31,7 @@ Result<> createKernel(const Device::Shared& d, const Shader& shader, Kernel& ker
     moduleInfo.pCode = shader.spirv.data();
     if (!kernel.module)
         if (auto made = d.check(d.vk.CreateShaderModule(d.device, &moduleInfo, nullptr, &kernel.module),
-                              "creating the shader module of " + name);
+                                "creating the shader module of " + name);
             !made)
             return made;
     if (!kernel.setLayout)
@@ -40,7 +41,7 @@ Result<> createKernel(const Device::Shared& d, const Shader& shader, Kernel& ker
     layoutInfo.pSetLayouts = &kernel.setLayout;
     if (!kernel.layout)
         if (auto made = d.check(d.vk.CreatePipelineLayout(d.device, &layoutInfo, nullptr, &kernel.layout),
-                              "creating the pipeline layout of " + name);
+                                "creating the pipeline layout of " + name);
             !made)
             return made;
     d.setName(VK_OBJECT_TYPE_SHADER_MODULE, handleBits(kernel.module), name);
@@ -50,7 +51,8 @@ Result<> createKernel(const Device::Shared& d, const Shader& shader, Kernel& ker
 Result<VkPipeline> createPipeline(const Device::Shared& d, const Shader& shader, const Kernel& kernel,
                                   const std::vector<int>& features) {
     std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < features.size(); ++i) entries.push_back({i, i * uint32_t(sizeof(int)), sizeof(int)});
+    for (uint32_t i = 0; i < features.size(); ++i)
+        entries.push_back({i, i * uint32_t(sizeof(int)), sizeof(int)});
     const VkSpecializationInfo specialization{uint32_t(entries.size()), entries.data(),
                                               features.size() * sizeof(int), features.data()};
     auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
@@ -62,7 +64,7 @@ Result<VkPipeline> createPipeline(const Device::Shared& d, const Shader& shader,
     info.layout = kernel.layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     if (auto made = d.check(d.vk.CreateComputePipelines(d.device, d.cache, 1, &info, nullptr, &pipeline),
-                          "creating a pipeline of " + std::string(shader.name));
+                            "creating a pipeline of " + std::string(shader.name));
         !made)
         return made.error();
     std::string name(shader.name);
@@ -84,7 +86,8 @@ Result<const Kernel*> obtainKernel(Device::Shared& d, const Shader& shader) {
 Result<VkPipeline> obtainPipeline(Device::Shared& d, const Shader& shader, const std::vector<int>& features) {
     const std::lock_guard lock(d.mutex);
     Kernel& kernel = d.kernels[&shader];
-    if (const auto found = kernel.pipelines.find(features); found != kernel.pipelines.end()) return found->second;
+    if (const auto found = kernel.pipelines.find(features); found != kernel.pipelines.end())
+        return found->second;
     auto pipeline = createPipeline(d, shader, kernel, features);
     if (pipeline) kernel.pipelines.emplace(features, *pipeline);
     return pipeline;

@@ -11,8 +11,8 @@ using Images = std::vector<const Image*>;
 
 Result<> checkFrame(const State& s, int frame) {
     if (frame < 0 || frame >= s.framesInFlight)
-        return invalidArgument("frame is " + std::to_string(frame) + "; 0 to " + std::to_string(s.framesInFlight - 1) +
-                               " was expected");
+        return invalidArgument("frame is " + std::to_string(frame) + "; 0 to " +
+                               std::to_string(s.framesInFlight - 1) + " was expected");
     return {};
 }
 
@@ -23,8 +23,10 @@ bool isReadable(VkImageLayout layout) {
     case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
     case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:
     case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL:
-    case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL: return false;
-    default: return true;
+    case VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL:
+        return false;
+    default:
+        return true;
     }
 }
 
@@ -32,8 +34,8 @@ Result<> checkImage(const Resource& r, const Image& image) {
     const std::string what = "inputs.images: " + r.name;
     if (!image.view) return invalidArgument(what + " has no view");
     if (image.extent != r.extent)
-        return invalidArgument(what + " is " + detail::toText(image.extent) + "; " + detail::toText(r.extent) +
-                               " was expected");
+        return invalidArgument(what + " is " + detail::toText(image.extent) + "; " +
+                               detail::toText(r.extent) + " was expected");
     if (r.kind == ResourceKind::output) {
         if (image.format != vulkanFormat(r.format))
             return invalidArgument(what + " has VkFormat " + std::to_string(int(image.format)) + "; " +
@@ -97,8 +99,9 @@ void recordBarrier(const State& s, VkCommandBuffer commands, const CompiledPass&
     auto memory = structure<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
     memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-    s.device->vk.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                    0, 1, &memory, 0, nullptr, uint32_t(beginnings.size()), beginnings.data());
+    s.device->vk.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &memory, 0, nullptr,
+                                    uint32_t(beginnings.size()), beginnings.data());
 }
 
 void recordPass(const State& s, VkCommandBuffer commands, int frame, size_t index) {
@@ -127,7 +130,9 @@ Program& Program::operator=(Program&&) noexcept = default;
 
 const Plan& Program::plan() const { return state->plan; }
 MemoryUse Program::memoryUse() const { return state->use; }
-void Program::onPass(std::function<void(VkCommandBuffer, int)> callback) { state->passCallback = std::move(callback); }
+void Program::onPass(std::function<void(VkCommandBuffer, int)> callback) {
+    state->passCallback = std::move(callback);
+}
 
 Result<> Program::record(VkCommandBuffer commands, int frame, const FrameInputs<Image>& inputs) {
     State& s = *state;
@@ -152,7 +157,8 @@ Result<> Program::record(VkCommandBuffer commands, int frame, const FrameInputs<
     for (size_t i = 0; i < s.passes.size(); ++i) {
         recordPass(s, commands, frame, i);
         if (s.queries)
-            vk.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, s.queries, firstQuery + uint32_t(i) + 1);
+            vk.CmdWriteTimestamp(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, s.queries,
+                                 firstQuery + uint32_t(i) + 1);
     }
     return {};
 }
@@ -164,16 +170,18 @@ Result<std::vector<PassTiming>> Program::timings(int frame) const {
     if (!s.queries || !s.measured[size_t(frame)]) return std::vector<PassTiming>{};
     const uint32_t count = uint32_t(s.passes.size() + 1);
     std::vector<uint64_t> ticks(count);
-    const VkResult result = s.device->vk.GetQueryPoolResults(s.device->device, s.queries, uint32_t(frame) * count, count,
-                                                             count * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
-                                                             VK_QUERY_RESULT_64_BIT);
+    const VkResult result = s.device->vk.GetQueryPoolResults(
+        s.device->device, s.queries, uint32_t(frame) * count, count, count * sizeof(uint64_t), ticks.data(),
+        sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
     if (result == VK_NOT_READY) return std::vector<PassTiming>{};
     if (auto read = s.device->check(result, "reading timestamps"); !read) return read.error();
-    const uint64_t mask = s.device->timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << s.device->timestampBits) - 1;
+    const uint64_t mask =
+        s.device->timestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << s.device->timestampBits) - 1;
     const double millisecondsPerTick = double(s.device->limits.timestampPeriod) * 1e-6;
     std::vector<PassTiming> timings;
     for (size_t i = 0; i < s.passes.size(); ++i)
-        timings.push_back({s.plan.passes[i].label, double((ticks[i + 1] - ticks[i]) & mask) * millisecondsPerTick});
+        timings.push_back(
+            {s.plan.passes[i].label, double((ticks[i + 1] - ticks[i]) & mask) * millisecondsPerTick});
     return timings;
 }
 

@@ -21,7 +21,9 @@ VkImageCreateInfo imageInfo(const Resource& r, bool inspectable) {
     return info;
 }
 
-VkDeviceSize roundUp(VkDeviceSize size, VkDeviceSize alignment) { return (size + alignment - 1) / alignment * alignment; }
+VkDeviceSize roundUp(VkDeviceSize size, VkDeviceSize alignment) {
+    return (size + alignment - 1) / alignment * alignment;
+}
 
 // The type of memory with the wanted properties, better with the preferred ones too.
 std::optional<uint32_t> memoryTypeOf(const VkPhysicalDeviceMemoryProperties& types, uint32_t allowed,
@@ -33,8 +35,8 @@ std::optional<uint32_t> memoryTypeOf(const VkPhysicalDeviceMemoryProperties& typ
 }
 
 Error shortOf(VkDeviceSize bytes) {
-    return {ErrorCode::outOfMemory,
-            "the plan needs " + std::to_string(bytes) + " bytes of device memory, which could not be allocated"};
+    return {ErrorCode::outOfMemory, "the plan needs " + std::to_string(bytes) +
+                                        " bytes of device memory, which could not be allocated"};
 }
 
 Result<MemoryBlock> allocateAlone(const Device::Shared& d, const MemoryRequest& request) {
@@ -44,7 +46,8 @@ Result<MemoryBlock> allocateAlone(const Device::Shared& d, const MemoryRequest& 
             ? memoryTypeOf(d.memoryTypes, request.requirements.memoryTypeBits,
                            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                            VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)
-            : memoryTypeOf(d.memoryTypes, request.requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+            : memoryTypeOf(d.memoryTypes, request.requirements.memoryTypeBits, 0,
+                           VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     if (!type) return shortOf(size);
     auto info = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = size;
@@ -52,11 +55,13 @@ Result<MemoryBlock> allocateAlone(const Device::Shared& d, const MemoryRequest& 
     MemoryBlock block;
     block.memoryType = *type;
     const std::string what = std::to_string(size) + " bytes of device memory";
-    if (auto allocated = d.check(d.vk.AllocateMemory(d.device, &info, nullptr, &block.memory), "allocating " + what);
+    if (auto allocated =
+            d.check(d.vk.AllocateMemory(d.device, &info, nullptr, &block.memory), "allocating " + what);
         !allocated)
         return allocated.error();
     if (!request.hostVisible) return block;
-    if (auto mapped = d.check(d.vk.MapMemory(d.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped), "mapping " + what);
+    if (auto mapped = d.check(d.vk.MapMemory(d.device, block.memory, 0, VK_WHOLE_SIZE, 0, &block.mapped),
+                              "mapping " + what);
         !mapped) {
         d.vk.FreeMemory(d.device, block.memory, nullptr);
         return mapped.error();
@@ -78,7 +83,8 @@ Result<> createImages(const Device::Shared& d, const Plan& plan, bool inspectabl
         if (r.kind != ResourceKind::transient || lives[i].last < 0) continue;
         TransientImage& t = transients.images[i];
         const VkImageCreateInfo info = imageInfo(r, inspectable);
-        if (auto made = d.check(d.vk.CreateImage(d.device, &info, nullptr, &t.image), "creating " + r.name); !made)
+        if (auto made = d.check(d.vk.CreateImage(d.device, &info, nullptr, &t.image), "creating " + r.name);
+            !made)
             return made;
         d.setName(VK_OBJECT_TYPE_IMAGE, handleBits(t.image), plan.technique + ": " + r.name);
         d.vk.GetImageMemoryRequirements(d.device, t.image, &t.requirements);
@@ -90,9 +96,12 @@ Result<> createImages(const Device::Shared& d, const Plan& plan, bool inspectabl
 
 VkFormat vulkanFormat(Format format) {
     switch (format) {
-    case Format::r32f: return VK_FORMAT_R32_SFLOAT;
-    case Format::rgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
-    case Format::rgba32f: return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case Format::r32f:
+        return VK_FORMAT_R32_SFLOAT;
+    case Format::rgba16f:
+        return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case Format::rgba32f:
+        return VK_FORMAT_R32G32B32A32_SFLOAT;
     }
     return VK_FORMAT_UNDEFINED;
 }
@@ -105,7 +114,8 @@ OwnedMemory::~OwnedMemory() {
 
 Result<std::shared_ptr<OwnedMemory>> allocateMemory(const std::shared_ptr<const Device::Shared>& device,
                                                     const MemoryRequest& request) {
-    const auto block = device->allocator.allocate ? allocateByHost(*device, request) : allocateAlone(*device, request);
+    const auto block =
+        device->allocator.allocate ? allocateByHost(*device, request) : allocateAlone(*device, request);
     if (!block) return block.error();
     auto memory = std::make_shared<OwnedMemory>();
     memory->device = device;

@@ -24,7 +24,8 @@ struct Overlap {
 bool dependsOn(const Pass& later, const Pass& earlier, const Overlap& overlap) {
     for (const PassBinding& l : later.bindings)
         for (const PassBinding& e : earlier.bindings)
-            if ((l.access == Access::write || e.access == Access::write) && overlap(l.resource, e.resource)) return true;
+            if ((l.access == Access::write || e.access == Access::write) && overlap(l.resource, e.resource))
+                return true;
     return false;
 }
 
@@ -35,8 +36,9 @@ bool uses(const Pass& pass, ResourceIndex r, const Overlap& overlap) {
 
 } // namespace
 
-void schedulePasses(const Plan& plan, const TransientLayout& layout, const std::vector<TransientImage>& images,
-                    bool separate, std::vector<CompiledPass>& passes) {
+void schedulePasses(const Plan& plan, const TransientLayout& layout,
+                    const std::vector<TransientImage>& images, bool separate,
+                    std::vector<CompiledPass>& passes) {
     const Overlap overlap{layout, images};
     size_t lastBarrier = 0;
     for (size_t i = 0; i < passes.size(); ++i) {

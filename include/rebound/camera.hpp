@@ -24,7 +24,7 @@ enum class FarPlane { finite, infinite };
 enum class Projection { perspective, orthographic };
 enum class Handedness { right, left }; // of view space: the camera looks down -z, or +z
 enum class FirstRow {
-    top,    // row 0 has normalised device y = +1 (Direct3D, Metal, files; Vulkan with a viewport of negative height)
+    top, // row 0 has normalised device y = +1 (Direct3D, Metal, files; Vulkan with a viewport of negative height)
     bottom, // row 0 has normalised device y = -1 (OpenGL; Vulkan with a viewport of positive height)
 };
 enum class NormalSpace { view, world };
@@ -56,7 +56,9 @@ namespace detail {
 #include "rebound/math/uniform_types.h"
 #include "rebound/techniques/camera_constants.h"
 
-inline const char* name(Projection p) { return p == Projection::perspective ? "perspective" : "orthographic"; }
+inline const char* name(Projection p) {
+    return p == Projection::perspective ? "perspective" : "orthographic";
+}
 
 // The projection's rows for z and w as functions of view-space z: ndc = (a z + b) / (c z + d).
 struct DepthMapping {
@@ -65,27 +67,29 @@ struct DepthMapping {
     double viewZ(double ndc) const { return (ndc * d - b) / (a - ndc * c); }
 };
 
-inline Error projectionError(const std::string& what) {
-    return invalidArgument("camera.projection " + what);
-}
+inline Error projectionError(const std::string& what) { return invalidArgument("camera.projection " + what); }
 
 inline Result<> checkProjectionForm(const glm::mat4& p, Projection projection) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (!std::isfinite(p[column][row])) return projectionError("holds a value that is not finite");
-    if (p[0][0] == 0.0f || p[1][1] == 0.0f) return projectionError("has no width or no height: m00 or m11 is zero");
+    if (p[0][0] == 0.0f || p[1][1] == 0.0f)
+        return projectionError("has no width or no height: m00 or m11 is zero");
     if (p[0][1] != 0.0f || p[1][0] != 0.0f || p[0][2] != 0.0f || p[1][2] != 0.0f || p[0][3] != 0.0f ||
         p[1][3] != 0.0f)
-        return projectionError("is sheared or rotated; a projection with axes along the screen's was expected");
+        return projectionError(
+            "is sheared or rotated; a projection with axes along the screen's was expected");
     const bool perspective = p[2][3] != 0.0f;
     if (perspective != (projection == Projection::perspective))
         return projectionError(std::string("is ") +
                                name(perspective ? Projection::perspective : Projection::orthographic) +
                                ", but conventions.projection says " + name(projection));
     if (perspective && (p[3][3] != 0.0f || std::abs(p[2][3]) != 1.0f || p[3][0] != 0.0f || p[3][1] != 0.0f))
-        return projectionError("must give w = z or w = -z, and x and y without offsets, where it is perspective");
+        return projectionError(
+            "must give w = z or w = -z, and x and y without offsets, where it is perspective");
     if (!perspective && (p[3][3] != 1.0f || p[2][0] != 0.0f || p[2][1] != 0.0f))
-        return projectionError("must give w = 1, and x and y that do not depend on z, where it is orthographic");
+        return projectionError(
+            "must give w = 1, and x and y that do not depend on z, where it is orthographic");
     return {};
 }
 
@@ -103,10 +107,11 @@ inline Result<> checkDepthConventions(const DepthMapping& m, const GBufferConven
                                " m; conventions.depthRange, depthDirection or handedness does not fit it");
     if (infinite != (c.farPlane == FarPlane::infinite))
         return projectionError(std::string("has ") + (infinite ? "an infinite" : "a finite") +
-                               " far plane, but conventions.farPlane says " + (infinite ? "finite" : "infinite"));
+                               " far plane, but conventions.farPlane says " +
+                               (infinite ? "finite" : "infinite"));
     if (!infinite && !(farDistance > nearDistance))
-        return projectionError("has its far plane at " + std::to_string(farDistance) + " m, before its near plane at " +
-                               std::to_string(nearDistance) +
+        return projectionError("has its far plane at " + std::to_string(farDistance) +
+                               " m, before its near plane at " + std::to_string(nearDistance) +
                                " m; conventions.depthRange, depthDirection or handedness does not fit it");
     return {};
 }
@@ -118,8 +123,9 @@ inline Result<> checkView(const glm::mat4& view) {
         for (int row = 0; row < 3; ++row)
             // Rotations composed in single precision stay orthonormal to about 1e-6; a scale of 0.1 % is a mistake.
             if (!(std::abs(product[column][row] - (column == row ? 1.0f : 0.0f)) < 1e-3f))
-                return invalidArgument("camera.view is not a rotation with a translation; a world-to-view matrix "
-                                       "without scale or shear was expected");
+                return invalidArgument(
+                    "camera.view is not a rotation with a translation; a world-to-view matrix "
+                    "without scale or shear was expected");
     return {};
 }
 
@@ -148,18 +154,23 @@ inline Result<CameraConstants> cameraConstants(const Camera& camera, const GBuff
     CameraConstants k;
     // Pixel coordinate to normalised device x, y, then through the inverse of p to view space. Where a perspective p is
     // off centre, p20 z is proportional to w = forward z, so both cases are offsets of the ray.
-    const double sx = 2.0 / extent.width, sy = (conventions.firstRow == FirstRow::top ? -2.0 : 2.0) / extent.height;
+    const double sx = 2.0 / extent.width,
+                 sy = (conventions.firstRow == FirstRow::top ? -2.0 : 2.0) / extent.height;
     const double x0 = -1.0, y0 = conventions.firstRow == FirstRow::top ? 1.0 : -1.0;
-    const double offsetX = perspective ? p[2][0] * forward : p[3][0], offsetY = perspective ? p[2][1] * forward : p[3][1];
+    const double offsetX = perspective ? p[2][0] * forward : p[3][0],
+                 offsetY = perspective ? p[2][1] * forward : p[3][1];
     k.ray = glm::vec4(sx / p[0][0], sy / p[1][1], (x0 - offsetX) / p[0][0], (y0 - offsetY) / p[1][1]);
 
     // Stored depth s is normalised device depth low + s (1 - low); z = forward (ndc d - b) / (a - ndc c).
     const double low = conventions.depthRange == DepthRange::zeroToOne ? 0.0 : -1.0, scale = 1.0 - low;
-    k.depth = device ? glm::vec4(forward * (low * m.d - m.b), forward * scale * m.d, m.a - low * m.c, -scale * m.c)
-                     : glm::vec4(0.0f, 1.0f, 1.0f, 0.0f);
-    k.empty = glm::vec4(device && conventions.depthDirection == DepthDirection::forward ? 1.0f : 0.0f, 0, 0, 0);
+    k.depth =
+        device ? glm::vec4(forward * (low * m.d - m.b), forward * scale * m.d, m.a - low * m.c, -scale * m.c)
+               : glm::vec4(0.0f, 1.0f, 1.0f, 0.0f);
+    k.empty =
+        glm::vec4(device && conventions.depthDirection == DepthDirection::forward ? 1.0f : 0.0f, 0, 0, 0);
 
-    glm::mat3 rotation = conventions.normalSpace == NormalSpace::world ? glm::mat3(camera.view) : glm::mat3(1.0f);
+    glm::mat3 rotation =
+        conventions.normalSpace == NormalSpace::world ? glm::mat3(camera.view) : glm::mat3(1.0f);
     for (int column = 0; column < 3; ++column) rotation[column].z *= float(forward);
     const bool isUnsigned = conventions.normalEncoding == NormalEncoding::unsignedUnit;
     const glm::vec3 bias = isUnsigned ? rotation * glm::vec3(-1.0f) : glm::vec3(0.0f);

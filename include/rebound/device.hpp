@@ -34,7 +34,7 @@ struct FrameInputs {
 };
 
 struct PassTiming {
-    std::string label;       // of the pass
+    std::string label; // of the pass
     double milliseconds = 0;
 };
 
@@ -56,7 +56,8 @@ Result<ResolvedInputs<Image>> resolveInputs(const Plan& plan, const FrameInputs<
         const bool external = i >= 0 && (plan.resources[size_t(i)].kind == ResourceKind::input ||
                                          plan.resources[size_t(i)].kind == ResourceKind::output);
         if (!external)
-            return invalidArgument("inputs.images: the plan has no input or output named " + std::string(named.name));
+            return invalidArgument("inputs.images: the plan has no input or output named " +
+                                   std::string(named.name));
         if (resolved.images[size_t(i)])
             return invalidArgument("inputs.images: " + std::string(named.name) + " is given twice");
         resolved.images[size_t(i)] = &named.image;
@@ -64,7 +65,8 @@ Result<ResolvedInputs<Image>> resolveInputs(const Plan& plan, const FrameInputs<
     for (const NamedConstants& named : inputs.constants) {
         const int i = plan.find(named.name);
         if (i < 0 || plan.resources[size_t(i)].kind != ResourceKind::frameConstants)
-            return invalidArgument("inputs.constants: the plan has no frame constants named " + std::string(named.name));
+            return invalidArgument("inputs.constants: the plan has no frame constants named " +
+                                   std::string(named.name));
         if (named.data.size() != plan.resources[size_t(i)].size)
             return invalidArgument("inputs.constants: " + std::string(named.name) + " has " +
                                    std::to_string(named.data.size()) + " bytes; " +

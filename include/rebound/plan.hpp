@@ -49,23 +49,23 @@ using ResourceIndex = int;
 enum class Access { read, write };
 
 struct PassBinding {
-    int slot = 0;                    // as the kernel declares it
-    ResourceIndex resource = 0;      // index into Plan::resources
+    int slot = 0;               // as the kernel declares it
+    ResourceIndex resource = 0; // index into Plan::resources
     Access access = Access::read;
 };
 
 struct Pass {
-    std::string label;               // what the pass does, for people, captures and timings; unique in a plan
-    std::string kernel;              // name of the kernel, such as "screen_indirect/gather"
-    std::vector<int> features;       // values of the kernel's features, by their number
+    std::string label;         // what the pass does, for people, captures and timings; unique in a plan
+    std::string kernel;        // name of the kernel, such as "screen_indirect/gather"
+    std::vector<int> features; // values of the kernel's features, by their number
     std::vector<PassBinding> bindings;
-    Extent2D grid;                   // pixels that the kernel runs for
+    Extent2D grid; // pixels that the kernel runs for
 };
 
 struct Plan {
     std::string technique;
     std::vector<Resource> resources;
-    std::vector<Pass> passes;        // in order; each may read what earlier ones wrote
+    std::vector<Pass> passes; // in order; each may read what earlier ones wrote
 
     ResourceIndex add(Resource resource) {
         resources.push_back(std::move(resource));
@@ -117,7 +117,8 @@ struct TransientLayout {
 
 // Places the transients, largest first, each at the lowest offset that no resource alive with it overlaps.
 // sizes: by resource [bytes]; those of resources that are not transient do not matter. alignment: a power of two [bytes].
-inline TransientLayout layoutTransients(const Plan& plan, const std::vector<size_t>& sizes, size_t alignment) {
+inline TransientLayout layoutTransients(const Plan& plan, const std::vector<size_t>& sizes,
+                                        size_t alignment) {
     const std::vector<Lifetime> lives = lifetimes(plan);
     std::vector<size_t> order;
     for (size_t i = 0; i < plan.resources.size(); ++i)

@@ -95,8 +95,7 @@ private:
         State(const State&) = delete;
         State& operator=(const State&) = delete;
         ~State() {
-            if (!log)
-                return;
+            if (!log) return;
             log->liveBytes -= use.total();
             --log->livePrograms;
         }
@@ -145,10 +144,8 @@ private:
 };
 
 inline Result<Program> Device::compile(const Plan& plan) const {
-    if (auto valid = validate(plan); !valid)
-        return valid.error();
-    if (auto known = checkKernels(plan); !known)
-        return known.error();
+    if (auto valid = validate(plan); !valid) return valid.error();
+    if (auto known = checkKernels(plan); !known) return known.error();
     const MemoryUse use = memoryUse(plan);
     if (use.total() > options.memoryLimit - std::min(options.memoryLimit, sharedLog->liveBytes))
         return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(use.total()) +
@@ -163,8 +160,7 @@ inline Result<Program> Device::compile(const Plan& plan) const {
                                                              size_t(r.extent.height)
                                                        : r.size);
     state->layout = layoutTransients(plan, state->sizes, transientAlignment);
-    if (use.transient > 0)
-        sharedLog->allocations.push_back({"transients", use.transient});
+    if (use.transient > 0) sharedLog->allocations.push_back({"transients", use.transient});
     for (const Resource& r : plan.resources)
         if (r.kind == ResourceKind::buffer || r.kind == ResourceKind::frameConstants)
             sharedLog->allocations.push_back({r.name, r.size});
@@ -178,8 +174,7 @@ inline Result<Program> Device::compile(const Plan& plan) const {
 inline Result<> Program::record(const FrameInputs<Image>& inputs) {
     const Plan& plan = state->plan;
     auto resolved = detail::resolveInputs(plan, inputs);
-    if (!resolved)
-        return resolved.error();
+    if (!resolved) return resolved.error();
     for (size_t i = 0; i < plan.resources.size(); ++i)
         if (const Image* image = resolved->images[i]; image && image->extent != plan.resources[i].extent)
             return invalidArgument("inputs.images: " + plan.resources[i].name + " is " +

@@ -15,8 +15,8 @@ enum class ErrorCode {
     notFound,        // a file, camera, preset or kernel that does not exist
     inputOutput,     // reading or writing failed
     outOfMemory,
-    unsupported,     // the device cannot do what was asked of it
-    deviceLost,      // the GPU has stopped answering; what was made with it can only be destroyed
+    unsupported, // the device cannot do what was asked of it
+    deviceLost,  // the GPU has stopped answering; what was made with it can only be destroyed
 };
 
 // One sentence that names the argument, its value and what was expected.
@@ -31,9 +31,7 @@ class [[nodiscard]] Result {
 public:
     using Value = T;
 
-    Result()
-        requires std::is_same_v<T, std::monostate>
-        : state(T{}) {}
+    Result() requires std::is_same_v<T, std::monostate> : state(T{}) {}
     Result(T value) : state(std::in_place_index<0>, std::move(value)) {}
     Result(Error error) : state(std::in_place_index<1>, std::move(error)) {}
 
@@ -53,8 +51,6 @@ private:
     std::variant<T, Error> state;
 };
 
-inline Error invalidArgument(std::string message) {
-    return {ErrorCode::invalidArgument, std::move(message)};
-}
+inline Error invalidArgument(std::string message) { return {ErrorCode::invalidArgument, std::move(message)}; }
 
 } // namespace rebound

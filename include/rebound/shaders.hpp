@@ -17,8 +17,8 @@ struct Shader {
     // Expanded GLSL without a #version line, for 4.30 and ES 3.10; the backend writes "#version ..." and a line
     // "#define REBOUND_FEATURE_n value" for each feature before it.
     std::string_view glsl;
-    KernelInfo info;                 // sizes unknown
-    Format formats[slotCount];       // of images and outputs, as the shader declares them
+    KernelInfo info;           // sizes unknown
+    Format formats[slotCount]; // of images and outputs, as the shader declares them
 };
 
 // The side of a shader's square workgroups [pixels].

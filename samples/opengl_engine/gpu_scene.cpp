@@ -8,9 +8,12 @@ namespace {
 
 GLint wrapMode(lab::Wrap wrap) {
     switch (wrap) {
-    case lab::Wrap::mirror: return GL_MIRRORED_REPEAT;
-    case lab::Wrap::clamp: return GL_CLAMP_TO_EDGE;
-    default: return GL_REPEAT;
+    case lab::Wrap::mirror:
+        return GL_MIRRORED_REPEAT;
+    case lab::Wrap::clamp:
+        return GL_CLAMP_TO_EDGE;
+    default:
+        return GL_REPEAT;
     }
 }
 
@@ -67,7 +70,9 @@ void GpuScene::addTextures(const lab::Scene& scene) {
     textures.push_back(makeTexture(1, 1, white, lab::Wrap::repeat, lab::Wrap::repeat));
     for (const lab::Texture& t : scene.textures)
         textures.push_back(makeTexture(t.width, t.height, t.rgba.data(), t.wrapS, t.wrapT));
-    const auto nameOf = [&](int texture) { return textures[size_t(texture + 1)].name(); }; // lab::none is -1: white
+    const auto nameOf = [&](int texture) {
+        return textures[size_t(texture + 1)].name();
+    }; // lab::none is -1: white
     for (const lab::Material& m : scene.materials)
         materialTextures.push_back({nameOf(m.baseColorTexture), nameOf(m.emissionTexture)});
 }

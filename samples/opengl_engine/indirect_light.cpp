@@ -15,7 +15,8 @@ Result<IndirectLight> IndirectLight::create(opengl::Loader loader, bool timings)
 // [/rebound device]
 
 // [rebound compile]
-Result<> IndirectLight::compile(const std::string& preset, const GBufferConventions& conventions, Extent2D size) {
+Result<> IndirectLight::compile(const std::string& preset, const GBufferConventions& conventions,
+                                Extent2D size) {
     auto settings = screenIndirectPreset(preset, size);
     if (!settings) return settings.error();
     settings->conventions = conventions;

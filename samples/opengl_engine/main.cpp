@@ -12,7 +12,8 @@ namespace {
 
 using host::OpenGLContext;
 
-Result<> renderToFile(const Options& o, const std::string& device, const lab::Scene& scene, const lab::CameraView& camera) {
+Result<> renderToFile(const Options& o, const std::string& device, const lab::Scene& scene,
+                      const lab::CameraView& camera) {
     auto renderer = Renderer::create(OpenGLContext::functionNamed, scene, o.preset);
     if (!renderer) return renderer.error();
     if (auto sized = (*renderer)->resize(o.size, camera); !sized) return sized;
@@ -23,7 +24,8 @@ Result<> renderToFile(const Options& o, const std::string& device, const lab::Sc
     if (auto fine = checkErrors("while frames were rendered"); !fine) return fine;
     glFinish(); // timings never wait
     const IndirectLight& indirect = (*renderer)->indirectLight();
-    return writePicture(o, scene.name, device, upsideDown(*composed), indirect.timings(), indirect.memoryUse());
+    return writePicture(o, scene.name, device, upsideDown(*composed), indirect.timings(),
+                        indirect.memoryUse());
 }
 
 Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& camera) {
@@ -36,7 +38,8 @@ Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& c
     if (auto found = host::requireDevice(device, o.device); !found) return found;
     if (auto done = renderToFile(o, device, scene, camera); !done) return done;
     const std::vector<std::string> messages = context->takeMessages();
-    if (o.validation && !messages.empty()) return Error{ErrorCode::invalidData, "validation: " + messages.front()};
+    if (o.validation && !messages.empty())
+        return Error{ErrorCode::invalidData, "validation: " + messages.front()};
     return {};
 }
 

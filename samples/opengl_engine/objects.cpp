@@ -15,7 +15,8 @@ Result<> checkLog(GLuint object, GLenum status, GetStatus getStatus, GetLog getL
     getStatus(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(size_t(length) + 1, '\0');
     getLog(object, length, nullptr, log.data());
-    return Error{ErrorCode::unsupported, std::string("the driver refuses the shader ") + name + ": " + log.c_str()};
+    return Error{ErrorCode::unsupported,
+                 std::string("the driver refuses the shader ") + name + ": " + log.c_str()};
 }
 
 } // namespace
@@ -26,12 +27,14 @@ Result<Program> makeProgram(const char* name, std::initializer_list<Stage> stage
         const Shader shader(glCreateShader(stage.kind));
         glShaderSource(shader.name(), 1, &stage.source, nullptr);
         glCompileShader(shader.name());
-        if (auto made = checkLog(shader.name(), GL_COMPILE_STATUS, glGetShaderiv, glGetShaderInfoLog, name); !made)
+        if (auto made = checkLog(shader.name(), GL_COMPILE_STATUS, glGetShaderiv, glGetShaderInfoLog, name);
+            !made)
             return made.error();
         glAttachShader(program.name(), shader.name());
     }
     glLinkProgram(program.name());
-    if (auto made = checkLog(program.name(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog, name); !made)
+    if (auto made = checkLog(program.name(), GL_LINK_STATUS, glGetProgramiv, glGetProgramInfoLog, name);
+        !made)
         return made.error();
     return program;
 }
@@ -72,9 +75,11 @@ Framebuffer makeFramebuffer(GLuint depth, std::initializer_list<GLuint> colors) 
 
 Result<> checkErrors(const char* what) {
     const GLenum first = glGetError();
-    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {} // a lost context reports errors without end
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+    } // a lost context reports errors without end
     if (first == GL_NO_ERROR) return {};
-    if (first == GL_OUT_OF_MEMORY) return Error{ErrorCode::outOfMemory, std::string("OpenGL is out of memory ") + what};
+    if (first == GL_OUT_OF_MEMORY)
+        return Error{ErrorCode::outOfMemory, std::string("OpenGL is out of memory ") + what};
     return Error{ErrorCode::unsupported, "OpenGL error " + std::to_string(first) + " " + what};
 }
 

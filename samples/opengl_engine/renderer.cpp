@@ -53,13 +53,15 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const opengl::Loader& loader,
     if (!indirect) return indirect.error();
     auto scene = GpuScene::create(labScene);
     if (!scene) return scene.error();
-    std::unique_ptr<Renderer> renderer(new Renderer(std::move(preset), *std::move(scene), *std::move(indirect)));
+    std::unique_ptr<Renderer> renderer(
+        new Renderer(std::move(preset), *std::move(scene), *std::move(indirect)));
     if (auto made = renderer->createOnce(); !made) return made.error();
     return renderer;
 }
 
 Result<> Renderer::createOnce() {
-    if (auto made = makeInto(shadowProgram, "shadow", {{GL_VERTEX_SHADER, shadow_vert}, {GL_FRAGMENT_SHADER, shadow_frag}});
+    if (auto made = makeInto(shadowProgram, "shadow",
+                             {{GL_VERTEX_SHADER, shadow_vert}, {GL_FRAGMENT_SHADER, shadow_frag}});
         !made)
         return made;
     if (auto made = makeInto(gbufferProgram, "gbuffer",
@@ -116,8 +118,8 @@ void Renderer::drawGBuffer() const {
 
 void Renderer::light() const {
     glUseProgram(lightProgram.name());
-    bindTextures({current->depth.name(), current->normal.name(), current->albedo.name(), current->emission.name(),
-                  shadowMap.name()});
+    bindTextures({current->depth.name(), current->normal.name(), current->albedo.name(),
+                  current->emission.name(), shadowMap.name()});
     glBindImageTexture(0, current->lit.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, scene.lightBuffer.name());
     const auto groups = [](int side) { return GLuint(side + 7) / 8; };
@@ -167,7 +169,8 @@ lab::Image Renderer::readDepth() const {
 lab::Image upsideDown(const lab::Image& image) {
     lab::Image result(image.extent(), image.channels);
     for (int y = 0; y < image.height; ++y)
-        std::copy_n(image.at(0, image.height - 1 - y), size_t(image.width) * size_t(image.channels), result.at(0, y));
+        std::copy_n(image.at(0, image.height - 1 - y), size_t(image.width) * size_t(image.channels),
+                    result.at(0, y));
     return result;
 }
 

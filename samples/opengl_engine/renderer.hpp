@@ -33,7 +33,8 @@ struct Targets {
 // Every call, and its end, needs the context current in which it was created.
 class Renderer {
 public:
-    static Result<std::unique_ptr<Renderer>> create(const opengl::Loader&, const lab::Scene&, std::string preset);
+    static Result<std::unique_ptr<Renderer>> create(const opengl::Loader&, const lab::Scene&,
+                                                    std::string preset);
 
     // Before the first frame, and whenever the size, or the kind of the camera, changes. After a failure nothing has
     // changed.

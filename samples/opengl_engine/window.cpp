@@ -16,7 +16,8 @@
 namespace rebound::engine {
 namespace {
 
-void APIENTRY collect(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text, const void* user) {
+void APIENTRY collect(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text,
+                      const void* user) {
     if (severity != GL_DEBUG_SEVERITY_NOTIFICATION)
         static_cast<std::vector<std::string>*>(const_cast<void*>(user))->emplace_back(text);
 }
@@ -63,7 +64,8 @@ Result<> showFrames(const Options& o, GLFWwindow* window, const lab::Scene& scen
     if (auto sized = (*renderer)->resize(o.size, orbit.view); !sized) return sized;
     const auto exposure = exposureOf(**renderer, orbit.view);
     if (!exposure) return exposure.error();
-    auto program = makeProgram("present", {{GL_VERTEX_SHADER, present_vert}, {GL_FRAGMENT_SHADER, present_frag}});
+    auto program =
+        makeProgram("present", {{GL_VERTEX_SHADER, present_vert}, {GL_FRAGMENT_SHADER, present_frag}});
     if (!program) return program.error();
     GLuint name = 0;
     glGenVertexArrays(1, &name);

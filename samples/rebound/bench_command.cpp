@@ -73,19 +73,17 @@ std::string measurementTable(const std::vector<Run>& runs) {
     return toTable(headings, rows);
 }
 
-Result<Run> benchOn(Preparation& preparation, const SourcedFrame& source, const ScreenIndirectSettings& settings,
-                    const BenchOptions& options) {
+Result<Run> benchOn(Preparation& preparation, const SourcedFrame& source,
+                    const ScreenIndirectSettings& settings, const BenchOptions& options) {
     auto pipeline =
         measure::FramePipeline::create(source.frame, settings, *preparation.backend, preparation.precision);
-    if (!pipeline)
-        return measure::spelled(pipeline.error(), measure::Spelling::options);
+    if (!pipeline) return measure::spelled(pipeline.error(), measure::Spelling::options);
     ProgressLine line("measuring");
     auto measurement = measure::measureFrames(
         *pipeline, {options.warmUp, options.frames, [&line](double share) { line.update(share); }});
-    if (!measurement)
-        return measurement.error();
-    return Run{preparation.backend->info(), pipeline->settings(), preparation.precision, pipeline->memoryUse(),
-               *std::move(measurement)};
+    if (!measurement) return measurement.error();
+    return Run{preparation.backend->info(), pipeline->settings(), preparation.precision,
+               pipeline->memoryUse(), *std::move(measurement)};
 }
 
 void print(const SourcedFrame& source, const std::vector<Run>& runs, const BenchOptions& options) {
@@ -93,22 +91,25 @@ void print(const SourcedFrame& source, const std::vector<Run>& runs, const Bench
     if (options.json) {
         std::vector<Json> all;
         for (const Run& run : runs)
-            all.push_back(toJson(runToJson(source, run.settings, preset, run.backend, run.precision, run.memory),
-                                 run.measurement, options));
+            all.push_back(
+                toJson(runToJson(source, run.settings, preset, run.backend, run.precision, run.memory),
+                       run.measurement, options));
         const Json json = all.size() == 1 ? all[0] : Json{{"runs", all}};
         std::cout << toText(json);
         return;
     }
     for (const Run& run : runs)
         std::cout << describeRun(source, run.settings, preset, run.backend, run.precision);
-    std::cout << options.frames << " frames after " << options.warmUp << " to warm up\n\n" << measurementTable(runs);
+    std::cout << options.frames << " frames after " << options.warmUp << " to warm up\n\n"
+              << measurementTable(runs);
     for (const Run& run : runs)
         if (const Series& recording = run.measurement.recording; !recording.milliseconds.empty())
             std::cout << "\nrecording a frame takes " << run.backend.backend << "'s host "
                       << std::lround(recording.median() * 1000.0) << " microseconds, at least "
                       << std::lround(recording.minimum() * 1000.0);
     for (const Run& run : runs)
-        std::cout << "\nmemory " << (runs.size() > 1 ? "of " + run.backend.backend + " " : "") << toText(run.memory);
+        std::cout << "\nmemory " << (runs.size() > 1 ? "of " + run.backend.backend + " " : "")
+                  << toText(run.memory);
     std::cout << '\n';
 }
 
@@ -117,26 +118,21 @@ Result<> bench(const BenchOptions& options) {
     for (const std::string& backend : splitList(options.device.backend)) {
         DeviceChoice choice = options.device;
         choice.backend = backend;
-        if (backend == "cpu" && options.device.backend != "cpu")
-            choice.device.clear(); // it means the others
+        if (backend == "cpu" && options.device.backend != "cpu") choice.device.clear(); // it means the others
         auto preparation = prepare(options.technique, choice);
-        if (!preparation)
-            return preparation.error();
+        if (!preparation) return preparation.error();
         preparations.push_back(*std::move(preparation));
     }
     if (preparations.empty())
         return invalidArgument("--backend is empty; some of cpu, vulkan and opengl were expected");
     const auto source = obtainFrame(options.source, preparations[0].extent, options.device.threads);
-    if (!source)
-        return source.error();
+    if (!source) return source.error();
     const auto settings = settingsOf(options.technique, source->frame.depth.extent());
-    if (!settings)
-        return settings.error();
+    if (!settings) return settings.error();
     std::vector<Run> runs;
     for (Preparation& preparation : preparations) {
         auto run = benchOn(preparation, *source, *settings, options);
-        if (!run)
-            return run.error();
+        if (!run) return run.error();
         runs.push_back(*std::move(run));
     }
     print(*source, runs, options);
@@ -152,8 +148,9 @@ Command addBenchCommand(CLI::App& program) {
     addTechniqueOptions(*app, options->technique);
     addDeviceOptions(*app, options->device);
     excludeSceneOptionsFromFrames(*app);
-    app->get_option("--backend")->description("what the technique runs on: cpu, vulkan or opengl, or several with commas\n"
-                                              "between them (default: cpu)");
+    app->get_option("--backend")
+        ->description("what the technique runs on: cpu, vulkan or opengl, or several with commas\n"
+                      "between them (default: cpu)");
     app->add_option("--frames", options->frames, "frames to measure, 1 to 100000 (default: 50)")
         ->option_text("N")
         ->check(CLI::Range(1, 100000))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "commands.hpp"
 #include "lab/charts/file_lock.hpp"
 #include "lab/charts/gnuplot.hpp"
 #include "lab/charts/report.hpp"
 #include "lab/charts/run.hpp"
-#include "commands.hpp"
 #include "lab/files/output_file.hpp"
 #include "memory_check.hpp"
 #include "options.hpp"
@@ -44,23 +44,21 @@ Result<charts::Sweep> sweepOf(const ChartOptions& options) {
     std::optional<Extent2D> size;
     if (!options.size.empty()) {
         const auto parsed = parseSize(options.size);
-        if (!parsed)
-            return parsed.error();
+        if (!parsed) return parsed.error();
         size = *parsed;
     }
-    auto sweep = options.sweep.empty() ? charts::parseSweep(charts::defaultSweepText(), "the default sweep", size)
-                                       : charts::readSweep(options.sweep, size);
-    if (!sweep)
-        return sweep;
-    if (!options.backends.empty())
-        sweep->backends = splitList(options.backends);
-    if (options.scenes.empty())
-        return sweep;
+    auto sweep = options.sweep.empty()
+                     ? charts::parseSweep(charts::defaultSweepText(), "the default sweep", size)
+                     : charts::readSweep(options.sweep, size);
+    if (!sweep) return sweep;
+    if (!options.backends.empty()) sweep->backends = splitList(options.backends);
+    if (options.scenes.empty()) return sweep;
     sweep->scenes.clear();
     for (const std::string& scene : options.scenes) {
         if (scene.empty())
-            return invalidArgument("SCENES holds an empty name; glTF files, builtin:atrium or builtin:cornell "
-                                   "were expected");
+            return invalidArgument(
+                "SCENES holds an empty name; glTF files, builtin:atrium or builtin:cornell "
+                "were expected");
         sweep->scenes.push_back({scene, "", {}});
     }
     return sweep;
@@ -70,10 +68,8 @@ Result<> checkMemoryOf(const std::vector<charts::ChartBackend>& backends, const 
     for (const charts::ChartBackend& backend : backends)
         for (const charts::Setting& setting : sweep.settings) {
             const auto plan = planOf(setting.settings);
-            if (!plan)
-                return plan.error();
-            if (auto enough = checkMemory(*backend.backend, *plan, sweep.size); !enough)
-                return enough;
+            if (!plan) return plan.error();
+            if (auto enough = checkMemory(*backend.backend, *plan, sweep.size); !enough) return enough;
         }
     return {};
 }
@@ -88,8 +84,7 @@ public:
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     ~ScratchFolder() {
         std::error_code ignored;
-        if (made)
-            fs::remove_all(path_, ignored);
+        if (made) fs::remove_all(path_, ignored);
     }
     bool exists() const { return made; }
     fs::path path() const { return path_; }
@@ -104,19 +99,21 @@ OutputFile copyOf(const fs::path& file) {
                 std::error_code failure;
                 fs::copy_file(file, path, failure);
                 if (failure)
-                    return Error{ErrorCode::inputOutput, "cannot write " + path.string() + ": " + failure.message()};
+                    return Error{ErrorCode::inputOutput,
+                                 "cannot write " + path.string() + ": " + failure.message()};
                 return {};
             }};
 }
 
 charts::PlotTexts plotTexts(const charts::Results& results) {
     charts::PlotTexts texts;
-    texts.subtitle = std::to_string(results.size.width) + "x" + std::to_string(results.size.height) + ", Rebound " +
-                     results.version + " on " + results.machine;
+    texts.subtitle = std::to_string(results.size.width) + "x" + std::to_string(results.size.height) +
+                     ", Rebound " + results.version + " on " + results.machine;
     texts.xLabel = "median time of a frame [ms]; bars: 10th to 90th percentile";
-    texts.yLabel = "relative RMSE against " +
-                   (results.bounces == 1 ? std::string("one bounce") : std::to_string(results.bounces) + " bounces") +
-                   ", path traced";
+    texts.yLabel =
+        "relative RMSE against " +
+        (results.bounces == 1 ? std::string("one bounce") : std::to_string(results.bounces) + " bounces") +
+        ", path traced";
     return texts;
 }
 
@@ -129,8 +126,7 @@ Result<std::vector<OutputFile>> drawings(const charts::Results& results, const f
     const fs::path script = scratch.path() / "charts.gnuplot";
     if (auto written = lab::writeFile(script, std::as_bytes(std::span(commands))); !written)
         return written.error();
-    if (auto drawn = charts::runGnuplot(gnuplot, script); !drawn)
-        return drawn.error();
+    if (auto drawn = charts::runGnuplot(gnuplot, script); !drawn) return drawn.error();
     std::vector<OutputFile> files;
     for (const charts::Chart& chart : all)
         if (!chart.points.empty())
@@ -142,11 +138,9 @@ Result<std::vector<OutputFile>> drawings(const charts::Results& results, const f
 Result<> writeResults(const charts::Results& results, const fs::path& out, const fs::path& gnuplot) {
     const ScratchFolder scratch;
     auto files = drawings(results, gnuplot, scratch);
-    if (!files)
-        return files.error();
+    if (!files) return files.error();
     auto page = charts::resultsPage(results, out / "pictures");
-    if (!page)
-        return page.error();
+    if (!page) return page.error();
     files->push_back(textFile("index.html", *std::move(page)));
     files->push_back(textFile("results.csv", charts::resultsCsv(results)));
     files->push_back(textFile("results.json", toText(charts::toJson(results))));
@@ -167,54 +161,44 @@ struct Prepared {
 Result<Prepared> prepareChart(const ChartOptions& options) {
     Prepared prepared;
     auto sweep = sweepOf(options);
-    if (!sweep)
-        return sweep.error();
+    if (!sweep) return sweep.error();
     prepared.sweep = *std::move(sweep);
     const auto precision = measure::precisionNamed("--precision", options.precision);
-    if (!precision)
-        return precision.error();
+    if (!precision) return precision.error();
     prepared.precision = *precision;
     const std::string what = options.backends.empty() ? "backends of the sweep" : "--backends";
     auto backends = charts::createBackends(what, prepared.sweep.backends, options.device, options.threads);
-    if (!backends)
-        return backends.error();
+    if (!backends) return backends.error();
     prepared.backends = *std::move(backends);
-    if (auto enough = checkMemoryOf(prepared.backends, prepared.sweep); !enough)
-        return enough.error();
+    if (auto enough = checkMemoryOf(prepared.backends, prepared.sweep); !enough) return enough.error();
     auto gnuplot = charts::findGnuplot();
-    if (!gnuplot)
-        return gnuplot.error();
+    if (!gnuplot) return gnuplot.error();
     prepared.gnuplot = *std::move(gnuplot);
     auto views = charts::loadViews(prepared.sweep);
-    if (!views)
-        return views.error();
+    if (!views) return views.error();
     prepared.views = *std::move(views);
     if (!options.peers.empty()) {
         auto peers = charts::readPeers(options.peers, prepared.views, prepared.sweep.size);
-        if (!peers)
-            return peers.error();
+        if (!peers) return peers.error();
         prepared.peers = *std::move(peers);
     }
     return prepared;
 }
 
 Result<> chart(const ChartOptions& options) {
-    if (auto writable = checkOutputFolder(options.out); !writable)
-        return writable;
+    if (auto writable = checkOutputFolder(options.out); !writable) return writable;
     auto prepared = prepareChart(options);
-    if (!prepared)
-        return prepared.error();
+    if (!prepared) return prepared.error();
     const fs::path out = options.out;
     std::error_code failure;
     fs::create_directories(out, failure); // what it reports, the lock meets too
     const auto lock = charts::FileLock::acquire(out, charts::FileLock::WhenTaken::fail,
                                                 "another run is writing to " + out.string());
-    if (!lock)
-        return lock.error();
+    if (!lock) return lock.error();
     auto store = charts::PointStore::open(out, REBOUND_VERSION, options.fresh);
-    if (!store)
-        return store.error();
-    const fs::path references = options.references.empty() ? out / "references" : fs::path(options.references);
+    if (!store) return store.error();
+    const fs::path references =
+        options.references.empty() ? out / "references" : fs::path(options.references);
     charts::LabWorkshop workshop(prepared->sweep, prepared->precision, references);
     const auto results = [&] {
         ProgressLine line("charting");
@@ -226,10 +210,8 @@ Result<> chart(const ChartOptions& options) {
                                  }},
                                 workshop, *store);
     }();
-    if (!results)
-        return results.error();
-    if (auto written = writeResults(*results, out, prepared->gnuplot); !written)
-        return written;
+    if (!results) return results.error();
+    if (auto written = writeResults(*results, out, prepared->gnuplot); !written) return written;
     std::cout << charts::summaryText(*results) << "\nwritten to " << out.string()
               << ": index.html, results.json, results.csv, summary.md, chart*.svg, chart*.png\n";
     return {};
@@ -267,18 +249,20 @@ Command addChartCommand(CLI::App& program) {
                     "folder where path-traced references are kept, for other charts too\n"
                     "(default: references in the output folder)")
         ->option_text("DIR");
-    app->add_option("--out", options->out, "folder for the outputs, created where it is missing (default: chart)")
+    app->add_option("--out", options->out,
+                    "folder for the outputs, created where it is missing (default: chart)")
         ->option_text("DIR");
     app->add_flag("--fresh", options->fresh, "forget the finished points of the output folder");
-    app->footer("Each setting is run on each backend in each view, one after the other, and its light is held\n"
-                "against path-traced light. Outputs: index.html, a page that needs nothing else; chart*.svg and\n"
-                "chart*.png; results.json and results.csv; summary.md; points/ and pictures/.\n"
-                "Finished points stay when a run is interrupted, and the next one goes on from there.\n"
-                "\n"
-                "Examples:\n"
-                "  rebound chart\n"
-                "  rebound chart scene.gltf --size 1280x720 --backends cpu,vulkan --out hall\n"
-                "  rebound chart --sweep sweep.json --peers rivals --out compared");
+    app->footer(
+        "Each setting is run on each backend in each view, one after the other, and its light is held\n"
+        "against path-traced light. Outputs: index.html, a page that needs nothing else; chart*.svg and\n"
+        "chart*.png; results.json and results.csv; summary.md; points/ and pictures/.\n"
+        "Finished points stay when a run is interrupted, and the next one goes on from there.\n"
+        "\n"
+        "Examples:\n"
+        "  rebound chart\n"
+        "  rebound chart scene.gltf --size 1280x720 --backends cpu,vulkan --out hall\n"
+        "  rebound chart --sweep sweep.json --peers rivals --out compared");
     return [options] { return exitCodeOf(chart(*options)); };
 }
 

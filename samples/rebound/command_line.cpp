@@ -86,8 +86,9 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
                    "a pixel's area is taken as if seen at no less, 0.001 to 1 (presets: 0.05)")
         ->option_text("C")
         ->group(techniqueGroup);
-    app.add_option("--cover-screen", o.coverScreen,
-                   "the outermost ring reaches the screen's corners, or ends at its radius: on or off\n(presets: on)")
+    app.add_option(
+           "--cover-screen", o.coverScreen,
+           "the outermost ring reaches the screen's corners, or ends at its radius: on or off\n(presets: on)")
         ->option_text("SWITCH")
         ->group(techniqueGroup);
     app.add_option("--smooth", o.smooth, "a 3x3 filter at the start resolution: on or off (presets: on)")

@@ -17,8 +17,7 @@ using Command = std::function<Result<int>()>;
 
 // Of a command that succeeds or fails.
 inline Result<int> exitCodeOf(const Result<>& done) {
-    if (!done)
-        return done.error();
+    if (!done) return done.error();
     return 0;
 }
 

@@ -25,8 +25,7 @@ struct CompareCommandOptions {
 
 Result<> checkNumber(const char* option, std::optional<double> value, double least, double most,
                      const char* expected) {
-    if (!value || (*value >= least && *value <= most))
-        return {};
+    if (!value || (*value >= least && *value <= most)) return {};
     return invalidArgument(formatted("%s is %g; %s was expected", option, *value, expected));
 }
 
@@ -42,8 +41,7 @@ Result<> checkOptions(const CompareCommandOptions& options) {
                                  std::numeric_limits<float>::max(), "a difference above 0");
         !valid)
         return valid;
-    if (options.mask && options.mask->empty())
-        return invalidArgument("--mask is empty; a file was expected");
+    if (options.mask && options.mask->empty()) return invalidArgument("--mask is empty; a file was expected");
     if (options.out && !options.out->ends_with(".png"))
         return invalidArgument("--out is \"" + *options.out +
                                "\"; a file whose name ends in .png was expected");
@@ -51,19 +49,16 @@ Result<> checkOptions(const CompareCommandOptions& options) {
 }
 
 lab::Image withoutAlpha(const lab::Image& image) {
-    if (image.channels != 4)
-        return image;
+    if (image.channels != 4) return image;
     lab::Image colors(image.extent(), 3);
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            std::copy_n(image.at(x, y), 3, colors.at(x, y));
+        for (int x = 0; x < image.width; ++x) std::copy_n(image.at(x, y), 3, colors.at(x, y));
     return colors;
 }
 
 Result<lab::Image> readPicture(const std::string& file) {
     auto image = lab::readExr(file);
-    if (!image)
-        return image;
+    if (!image) return image;
     return withoutAlpha(*image);
 }
 
@@ -74,16 +69,13 @@ struct Pictures {
 
 Result<Pictures> readPictures(const CompareCommandOptions& options) {
     auto test = readPicture(options.test);
-    if (!test)
-        return test.error();
+    if (!test) return test.error();
     auto truth = readPicture(options.truth);
-    if (!truth)
-        return truth.error();
+    if (!truth) return truth.error();
     Pictures pictures{*std::move(test), *std::move(truth), {}};
     if (options.mask) {
         auto mask = lab::readExr(*options.mask);
-        if (!mask)
-            return mask.error();
+        if (!mask) return mask.error();
         pictures.mask = *std::move(mask);
     }
     return pictures;
@@ -92,39 +84,31 @@ Result<Pictures> readPictures(const CompareCommandOptions& options) {
 // The library knows roles; the files' names are in front of what it says.
 Error named(const CompareCommandOptions& options, const Error& error) {
     std::string files = options.test + " against " + options.truth;
-    if (options.mask)
-        files += " with mask " + *options.mask;
+    if (options.mask) files += " with mask " + *options.mask;
     return {error.code, files + ": " + error.message};
 }
 
 Result<> compare(const CompareCommandOptions& options) {
-    if (auto valid = checkOptions(options); !valid)
-        return valid;
+    if (auto valid = checkOptions(options); !valid) return valid;
     const auto pictures = readPictures(options);
-    if (!pictures)
-        return pictures.error();
+    if (!pictures) return pictures.error();
     metrics::CompareOptions how;
     how.mask = pictures->mask ? &*pictures->mask : nullptr;
     how.curve = options.exposure ? lab::ToneCurve{float(*options.exposure)}
                                  : lab::automaticToneCurve(pictures->truth);
     how.pixelsPerDegree = options.pixelsPerDegree;
     const auto found = metrics::compareImages(pictures->test, pictures->truth, how);
-    if (!found)
-        return named(options, found.error());
+    if (!found) return named(options, found.error());
     if (options.out) {
         const auto picture = metrics::errorPicture(pictures->test, pictures->truth, how, options.largest);
-        if (!picture)
-            return named(options, picture.error());
-        if (auto written = lab::writePng(*options.out, *picture); !written)
-            return written;
+        if (!picture) return named(options, picture.error());
+        if (auto written = lab::writePng(*options.out, *picture); !written) return written;
     }
     const Comparison comparison{
         options.test, options.truth,       options.mask, pictures->truth.extent(), pictures->truth.channels,
         *how.curve,   how.pixelsPerDegree, *found};
-    if (options.json)
-        std::cout << toText(compareJson(comparison));
-    else
-        std::cout << compareText(comparison);
+    if (options.json) std::cout << toText(compareJson(comparison));
+    else std::cout << compareText(comparison);
     return {};
 }
 

@@ -35,8 +35,7 @@ constexpr Measure measures[] = {
 
 std::string leftOut(const Comparison& c) {
     std::string text = std::to_string(c.metrics.pixels) + " pixels compared";
-    if (c.mask)
-        text += ", " + std::to_string(c.metrics.maskedOut) + " masked out";
+    if (c.mask) text += ", " + std::to_string(c.metrics.maskedOut) + " masked out";
     text += ", " + std::to_string(c.metrics.notFinite) + " left out as not finite";
     if (c.metrics.notFinite > 0)
         text += " (" + std::to_string(c.metrics.notFiniteInTest) + " in " + c.test + ", " +

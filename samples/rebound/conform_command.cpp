@@ -18,7 +18,7 @@ namespace {
 struct ConformOptions {
     std::string backends; // comma-separated; empty: all that there are
     std::string device;
-    std::string only;     // part of cases' names
+    std::string only; // part of cases' names
     int cases = 100;
     uint64_t seed = 1;
     bool validation = false;
@@ -30,27 +30,22 @@ struct ConformOptions {
 std::vector<std::string> contenderNames() {
     std::vector<std::string> names;
     for (const cpu::Isa isa : cpu::availableIsas())
-        if (isa != cpu::Isa::scalar)
-            names.push_back(cpu::name(isa));
+        if (isa != cpu::Isa::scalar) names.push_back(cpu::name(isa));
     for (const std::string& name : runner::backendNames())
-        if (name != "cpu")
-            names.push_back(name);
+        if (name != "cpu") names.push_back(name);
     return names;
 }
 
 Result<conformance::Contender> createContender(const std::string& name, const ConformOptions& options) {
     runner::BackendChoice choice;
-    if (const auto isa = cpu::isaFromName(name))
-        choice.isa = *isa;
-    else
-        choice.backend = name;
+    if (const auto isa = cpu::isaFromName(name)) choice.isa = *isa;
+    else choice.backend = name;
     if (choice.backend != "cpu") {
         choice.device = options.device;
         choice.validation = options.validation;
     }
     auto backend = runner::createBackend(choice);
-    if (!backend)
-        return backend.error();
+    if (!backend) return backend.error();
     return conformance::Contender{name, *std::move(backend)};
 }
 
@@ -67,17 +62,14 @@ Result<Contenders> createContenders(const ConformOptions& options) {
     for (const std::string& name : wanted) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             std::string list;
-            for (const std::string& k : known)
-                list += (list.empty() ? "" : ", ") + k;
+            for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
             return invalidArgument("--backends holds \"" + name + "\"; some of " + list + " were expected");
         }
         auto contender = createContender(name, options);
-        if (contender)
-            contenders.present.push_back(*std::move(contender));
+        if (contender) contenders.present.push_back(*std::move(contender));
         else if (options.backends.empty())
             contenders.skipped.push_back(name + ": " + contender.error().message);
-        else
-            return contender.error();
+        else return contender.error();
     }
     return contenders;
 }
@@ -95,21 +87,17 @@ Result<int> conform(const ConformOptions& options) {
     if (cases.empty())
         return invalidArgument("--only is \"" + options.only + "\", which is in no case's name");
     auto contenders = createContenders(options);
-    if (!contenders)
-        return contenders.error();
+    if (!contenders) return contenders.error();
     auto report = [&] {
         ProgressLine line("comparing");
         return conformance::run(cases, contenders->present, [&](double share) { line.update(share); });
     }();
-    if (!report)
-        return report.error();
+    if (!report) return report.error();
     if (!options.out.empty())
-        if (auto written = writeConformPictures(options.out, *report); !written)
-            return written.error();
+        if (auto written = writeConformPictures(options.out, *report); !written) return written.error();
     if (options.json)
         std::cout << conformJson(*report, contenders->present, contenders->skipped).dump(2) << '\n';
-    else
-        std::cout << conformText(*report, contenders->present, contenders->skipped);
+    else std::cout << conformText(*report, contenders->present, contenders->skipped);
     return report->agrees() ? 0 : 1;
 }
 
@@ -117,7 +105,8 @@ Result<int> conform(const ConformOptions& options) {
 
 Command addConformCommand(CLI::App& program) {
     auto options = std::make_shared<ConformOptions>();
-    CLI::App* app = program.add_subcommand("conform", "hold every backend against the scalar CPU, pass by pass");
+    CLI::App* app =
+        program.add_subcommand("conform", "hold every backend against the scalar CPU, pass by pass");
     app->add_option("--backends,--backend", options->backends,
                     "some of baseline, avx2, avx512, vulkan, opengl, with commas between them\n"
                     "(default: all that this machine has)")
@@ -128,7 +117,8 @@ Command addConformCommand(CLI::App& program) {
         ->option_text("N")
         ->check(CLI::Range(0, 100000));
     app->add_option("--seed", options->seed, "of the random cases (default: 1)")->option_text("S");
-    app->add_option("--only", options->only, "only cases whose names hold this (default: all)")->option_text("TEXT");
+    app->add_option("--only", options->only, "only cases whose names hold this (default: all)")
+        ->option_text("TEXT");
     app->add_flag("--validation", options->validation,
                   "vulkan: with validation layers, opengl: with debug output; any message is a failure");
     app->add_flag("--json", options->json, "print JSON, and nothing else, on standard output");
@@ -136,13 +126,15 @@ Command addConformCommand(CLI::App& program) {
                     "folder for pictures of what disagrees: reference, output, difference, and the\n"
                     "difference times 16 (default: none)")
         ->option_text("DIR");
-    app->footer("Every pass of every backend gets what the scalar CPU's passes wrote, so that a difference names its\n"
-                "pass. Where reduction chooses among four texels, another choice is counted apart.\n"
-                "Exit code: 0 where all agree, 1 where some do not, 2 where the comparison could not be made.\n"
-                "\n"
-                "Examples:\n"
-                "  rebound conform\n"
-                "  rebound conform --backends vulkan --device NVIDIA --cases 1000 --validation --out differences");
+    app->footer(
+        "Every pass of every backend gets what the scalar CPU's passes wrote, so that a difference names "
+        "its\n"
+        "pass. Where reduction chooses among four texels, another choice is counted apart.\n"
+        "Exit code: 0 where all agree, 1 where some do not, 2 where the comparison could not be made.\n"
+        "\n"
+        "Examples:\n"
+        "  rebound conform\n"
+        "  rebound conform --backends vulkan --device NVIDIA --cases 1000 --validation --out differences");
     return [options] { return conform(*options); };
 }
 

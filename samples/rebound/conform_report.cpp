@@ -17,9 +17,7 @@ using conformance::Finding;
 using conformance::Report;
 
 // "screen_indirect/gather" as "gather": one technique's kernels share a table.
-std::string shortName(const std::string& kernel) {
-    return kernel.substr(kernel.find('/') + 1);
-}
+std::string shortName(const std::string& kernel) { return kernel.substr(kernel.find('/') + 1); }
 
 std::string whereOf(const Difference& d) {
     return formatted("pixel (%d, %d), channel %d: %.8g where the scalar CPU has %.8g", d.worstX, d.worstY,
@@ -72,29 +70,28 @@ Json differenceToJson(const Difference& d) {
 std::string conformText(const Report& report, const std::vector<Contender>& contenders,
                         const std::vector<std::string>& skipped) {
     std::string text = std::to_string(report.cases) + " cases against the scalar CPU";
-    for (const Contender& c : contenders)
-        text += "\n  " + c.name + ": " + runner::toText(c.backend->info());
-    for (const std::string& s : skipped)
-        text += "\n  skipped " + s;
-    text += formatted("\n\n%-9s %-18s %10s %10s %9s %10s %10s %9s\n", "backend", "pass", "max abs", "max rel", "max ulp",
-                      "beyond", "decisions", "of tol.");
+    for (const Contender& c : contenders) text += "\n  " + c.name + ": " + runner::toText(c.backend->info());
+    for (const std::string& s : skipped) text += "\n  skipped " + s;
+    text += formatted("\n\n%-9s %-18s %10s %10s %9s %10s %10s %9s\n", "backend", "pass", "max abs", "max rel",
+                      "max ulp", "beyond", "decisions", "of tol.");
     for (const Report::Row& row : report.rows) {
         const Difference& d = row.difference;
         text += formatted("%-9s %-18s %10.2e %10.2e %9.3g %9.4f%% %9.4f%% %9.2f%s\n", row.contender.c_str(),
                           shortName(row.kernel).c_str(), d.maximumAbsolute, d.maximumRelative, d.maximumUlp,
-                          100.0 * double(d.beyond) / double(d.texels), 100.0 * double(d.decisions) / double(d.texels),
-                          d.worstExcess, row.disagreements ? "  DISAGREES" : "");
+                          100.0 * double(d.beyond) / double(d.texels),
+                          100.0 * double(d.decisions) / double(d.texels), d.worstExcess,
+                          row.disagreements ? "  DISAGREES" : "");
     }
     text += formatted("\n%-9s %12s %12s  worst case\n", "backend", "frame median", "frame max");
     for (const conformance::FrameRow& row : report.frames)
         text += formatted("%-9s %12.2e %12.2e  %s%s\n", row.contender.c_str(), row.median, row.maximum,
                           row.worstCase.c_str(), row.disagreements ? "  DISAGREES" : "");
     for (const Finding& f : report.disagreements)
-        text += "\n" + f.contender + " disagrees in " + f.caseName + ", pass " + f.pass + ", " + f.resource + ": " +
-                std::to_string(f.difference.beyond) + " texels beyond tolerance, " +
-                std::to_string(f.difference.decisions) + " other decisions; worst at " + whereOf(f.difference);
-    for (const std::string& complaint : report.complaints)
-        text += "\n" + complaint;
+        text += "\n" + f.contender + " disagrees in " + f.caseName + ", pass " + f.pass + ", " + f.resource +
+                ": " + std::to_string(f.difference.beyond) + " texels beyond tolerance, " +
+                std::to_string(f.difference.decisions) + " other decisions; worst at " +
+                whereOf(f.difference);
+    for (const std::string& complaint : report.complaints) text += "\n" + complaint;
     return text + (report.agrees() ? "\nall agree\n" : "\n");
 }
 
@@ -109,21 +106,24 @@ Json conformJson(const Report& report, const std::vector<Contender>& contenders,
     json["skipped"] = skipped;
     json["passes"] = Json::array();
     for (const Report::Row& row : report.rows) {
-        Json entry = {{"backend", row.contender}, {"kernel", row.kernel},          {"images", row.images},
-                      {"worst_case", row.worstCase}, {"worst_pass", row.worstPass}, {"disagreements", row.disagreements}};
+        Json entry = {{"backend", row.contender},    {"kernel", row.kernel},
+                      {"images", row.images},        {"worst_case", row.worstCase},
+                      {"worst_pass", row.worstPass}, {"disagreements", row.disagreements}};
         entry.update(differenceToJson(row.difference));
         json["passes"].push_back(entry);
     }
     json["frames"] = Json::array();
     for (const conformance::FrameRow& row : report.frames)
-        json["frames"].push_back({{"backend", row.contender},
-                                  {"median_relative_rms", row.median},
-                                  {"maximum_relative_rms", std::isfinite(row.maximum) ? Json(row.maximum) : Json("infinite")},
-                                  {"worst_case", row.worstCase},
-                                  {"disagreements", row.disagreements}});
+        json["frames"].push_back(
+            {{"backend", row.contender},
+             {"median_relative_rms", row.median},
+             {"maximum_relative_rms", std::isfinite(row.maximum) ? Json(row.maximum) : Json("infinite")},
+             {"worst_case", row.worstCase},
+             {"disagreements", row.disagreements}});
     json["disagreements"] = Json::array();
     for (const Finding& f : report.disagreements) {
-        Json entry = {{"backend", f.contender}, {"case", f.caseName}, {"pass", f.pass}, {"resource", f.resource}};
+        Json entry = {
+            {"backend", f.contender}, {"case", f.caseName}, {"pass", f.pass}, {"resource", f.resource}};
         entry.update(differenceToJson(f.difference));
         json["disagreements"].push_back(entry);
     }
@@ -141,12 +141,12 @@ Result<> writeConformPictures(const std::string& folder, const Report& report) {
                              const auto shown = [&](const lab::Image& image) {
                                  return enlarged(lab::toneMap(image, curve));
                              };
-                             return lab::writePng(path,
-                                                  lab::contactSheet({{"scalar CPU", shown(f.reference)},
-                                                                     {f.contender, shown(f.value)},
-                                                                     {"difference", shown(magnified(f, 1.0f))},
-                                                                     {"difference x 16", shown(magnified(f, 16.0f))}},
-                                                                    2));
+                             return lab::writePng(
+                                 path, lab::contactSheet({{"scalar CPU", shown(f.reference)},
+                                                          {f.contender, shown(f.value)},
+                                                          {"difference", shown(magnified(f, 1.0f))},
+                                                          {"difference x 16", shown(magnified(f, 16.0f))}},
+                                                         2));
                          }});
     }
     return files.empty() ? Result<>() : writeOutputFolder(folder, files);

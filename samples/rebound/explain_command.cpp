@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
-#include "lab/explain/error_causes.hpp"
 #include "frame_source.hpp"
+#include "lab/explain/error_causes.hpp"
 #include "memory_check.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
@@ -39,9 +39,7 @@ struct ExplainCommandOptions {
     std::string out;
 };
 
-std::string percent(double share) {
-    return formatted("%+.2f", 100.0 * share);
-}
+std::string percent(double share) { return formatted("%+.2f", 100.0 * share); }
 
 void addRow(std::string& text, const std::string& name, const Cause& cause, const std::string& part) {
     text += formatted("%-24s %10s %10s %10s  ", name.c_str(), percent(cause.bias).c_str(),
@@ -52,8 +50,7 @@ void addRow(std::string& text, const std::string& name, const Cause& cause, cons
 std::string tableOf(const Explanation& explanation) {
     std::string text = formatted("%-24s %10s %10s %10s  %s\n", "cause, in % of the mean", "bias", "alone",
                                  "part", "what is switched");
-    for (const Cause& cause : explanation.causes)
-        addRow(text, cause.name, cause, percent(cause.part));
+    for (const Cause& cause : explanation.causes) addRow(text, cause.name, cause, percent(cause.part));
     text += std::string(60, '-') + "\n";
     addRow(text, explanation.whole.name, explanation.whole, percent(explanation.whole.part));
     addRow(text, explanation.screenLimit.name, explanation.screenLimit, "");
@@ -80,8 +77,7 @@ Json toJson(const ExplainCommandOptions& options, const lab::CameraView& camera,
     json["samples"] = options.samples;
     json["truth_mean"] = explanation.truthMean;
     json["causes"] = Json::array();
-    for (const Cause& cause : explanation.causes)
-        json["causes"].push_back(toJson(cause));
+    for (const Cause& cause : explanation.causes) json["causes"].push_back(toJson(cause));
     json["whole"] = toJson(explanation.whole);
     json["screen_limit"] = toJson(explanation.screenLimit);
     json["noise"] = explanation.noise;
@@ -102,8 +98,7 @@ lab::Picture sheetOf(const Explanation& explanation, double scale, const lab::To
         pictures.push_back({cause.name, differencePicture(cause.difference, scale)});
     };
     add(explanation.whole);
-    for (const Cause& cause : explanation.causes)
-        add(cause);
+    for (const Cause& cause : explanation.causes) add(cause);
     add(explanation.screenLimit);
     return lab::contactSheet(pictures, 3);
 }
@@ -114,8 +109,7 @@ Result<> writePictures(const ExplainCommandOptions& options, const Explanation& 
     const double scale = 3.0 * explanation.whole.rms * explanation.truthMean;
     const lab::ToneCurve curve = lab::automaticToneCurve(explanation.truth);
     std::vector<const Cause*> causes = {&explanation.whole, &explanation.screenLimit};
-    for (const Cause& cause : explanation.causes)
-        causes.push_back(&cause);
+    for (const Cause& cause : explanation.causes) causes.push_back(&cause);
     std::vector<OutputFile> files;
     for (const Cause* cause : causes)
         files.push_back({fileNameOf(cause->name), [cause, scale](const fs::path& path) {
@@ -125,8 +119,7 @@ Result<> writePictures(const ExplainCommandOptions& options, const Explanation& 
                          return lab::writePng(path, sheetOf(explanation, scale, curve));
                      }});
     files.push_back(textFile("causes.json", toText(json)));
-    if (auto written = writeOutputFolder(options.out, files); !written)
-        return written;
+    if (auto written = writeOutputFolder(options.out, files); !written) return written;
     if (!options.json)
         std::cout
             << formatted(
@@ -138,28 +131,20 @@ Result<> writePictures(const ExplainCommandOptions& options, const Explanation& 
 
 Result<> explainScene(const ExplainCommandOptions& options) {
     const auto extent = parseSize(options.technique.size);
-    if (!extent)
-        return extent.error();
+    if (!extent) return extent.error();
     const auto settings = settingsOf(options.technique, *extent);
-    if (!settings)
-        return settings.error();
-    if (auto plan = planOf(*settings); !plan)
-        return plan.error();
+    if (!settings) return settings.error();
+    if (auto plan = planOf(*settings); !plan) return plan.error();
     ReferenceOptions reference;
     reference.bounces = options.bounces;
     reference.samples = options.samples;
-    if (auto valid = pathTracerOptionsOf(reference, *extent, options.threads); !valid)
-        return valid.error();
-    if (options.bounces < 1)
-        return invalidArgument("--bounces is 0; 1 to 64 was expected");
-    if (auto enough = checkMemory(*extent, bytesPerPixel); !enough)
-        return enough;
+    if (auto valid = pathTracerOptionsOf(reference, *extent, options.threads); !valid) return valid.error();
+    if (options.bounces < 1) return invalidArgument("--bounces is 0; 1 to 64 was expected");
+    if (auto enough = checkMemory(*extent, bytesPerPixel); !enough) return enough;
     if (!options.out.empty())
-        if (auto writable = checkOutputFolder(options.out); !writable)
-            return writable;
+        if (auto writable = checkOutputFolder(options.out); !writable) return writable;
     const auto view = loadView(options.source);
-    if (!view)
-        return view.error();
+    if (!view) return view.error();
 
     explain::ExplainOptions explaining;
     explaining.settings = *settings;
@@ -171,11 +156,9 @@ Result<> explainScene(const ExplainCommandOptions& options) {
         explaining.progress = [&line](double share) { line.update(share); };
         return explain::explainError(view->scene, view->camera, explaining);
     }();
-    if (!explanation)
-        return explanation.error();
+    if (!explanation) return explanation.error();
     const Json json = toJson(options, view->camera, *extent, *explanation);
-    if (options.json)
-        std::cout << toText(json);
+    if (options.json) std::cout << toText(json);
     else
         std::cout << options.source.scene << ", camera " << view->camera.name << ", "
                   << options.technique.size << ", " << options.technique.preset

@@ -27,8 +27,7 @@ Result<lab::Scene> loadSceneOf(const SourceOptions& options) {
 
 Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, int threads) {
     const auto view = loadView(options);
-    if (!view)
-        return view.error();
+    if (!view) return view.error();
     ProgressLine line("rendering the G-buffer and direct light");
     lab::FrameOptions frameOptions;
     frameOptions.extent = extent;
@@ -42,11 +41,9 @@ Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, i
 
 Result<SourcedView> loadView(const SourceOptions& options) {
     auto scene = loadSceneOf(options);
-    if (!scene)
-        return scene.error();
+    if (!scene) return scene.error();
     auto camera = lab::findCamera(*scene, options.camera);
-    if (!camera)
-        return camera.error();
+    if (!camera) return camera.error();
     return SourcedView{*std::move(scene), *std::move(camera)};
 }
 
@@ -56,16 +53,14 @@ Result<SourcedFrame> obtainFrame(const SourceOptions& options, Extent2D extent, 
     source.name = source.isStored ? options.frame : options.scene;
     auto frame = source.isStored ? lab::readFrame(options.frame, options.view, options.camera)
                                  : renderSource(options, extent, threads);
-    if (!frame)
-        return frame.error();
+    if (!frame) return frame.error();
     source.frame = *std::move(frame);
     const std::string prefix = source.isStored ? "" : "'" + source.name + "': the rendered ";
     const fs::path folder = source.isStored ? fs::path(options.frame) : fs::path();
     const auto nameOfImage = [&](const char* image) {
         return source.isStored ? (folder / (std::string(image) + ".exr")).string() : prefix + image;
     };
-    if (auto valid = lab::checkFrame(source.frame, nameOfImage); !valid)
-        return valid.error();
+    if (auto valid = lab::checkFrame(source.frame, nameOfImage); !valid) return valid.error();
     return source;
 }
 

@@ -44,8 +44,7 @@ int runProgram(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
-        if (end.get_exit_code() != int(CLI::ExitCodes::Success))
-            return fail(end.what());
+        if (end.get_exit_code() != int(CLI::ExitCodes::Success)) return fail(end.what());
         program.exit(end, std::cout, std::cerr);
         return finish(0);
     }
@@ -55,8 +54,7 @@ int runProgram(int argc, char** argv) {
             return done ? finish(*done) : fail(done.error().message);
         }
     std::string names;
-    for (const auto& command : commands)
-        names += (names.empty() ? "" : ", ") + command.first->get_name();
+    for (const auto& command : commands) names += (names.empty() ? "" : ", ") + command.first->get_name();
     return fail("a command is missing; one of " + names + " was expected (rebound --help says more)");
 }
 

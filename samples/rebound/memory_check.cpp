@@ -17,12 +17,10 @@ constexpr double bytesPerPixel = 200.0;
 
 Result<> checkMemory(Extent2D size, double perPixel, double furtherBytes) {
     const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
-    if (pages <= 0 || pageSize <= 0)
-        return {};
+    if (pages <= 0 || pageSize <= 0) return {};
     const double needed = perPixel * double(size.width) * double(size.height) + furtherBytes;
     const double available = double(pages) * double(pageSize);
-    if (needed <= available)
-        return {};
+    if (needed <= available) return {};
     char message[160];
     std::snprintf(message, sizeof message,
                   "--size is %dx%d, which takes about %.0f GB; this machine has %.0f GB", size.width,
@@ -32,8 +30,7 @@ Result<> checkMemory(Extent2D size, double perPixel, double furtherBytes) {
 
 Result<> checkMemory(const runner::Backend& backend, const Plan& plan, Extent2D size) {
     const auto use = backend.memoryUse(plan);
-    if (!use)
-        return use.error();
+    if (!use) return use.error();
     return checkMemory(size, bytesPerPixel, double(use->total()));
 }
 

@@ -12,14 +12,11 @@ namespace rebound::cli {
 std::vector<std::string> splitList(const std::string& text) {
     std::vector<std::string> parts;
     std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');)
-        parts.push_back(part);
+    for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
     return parts;
 }
 
-Result<Extent2D> parseSize(const std::string& text) {
-    return measure::parseSize("--size", text);
-}
+Result<Extent2D> parseSize(const std::string& text) { return measure::parseSize("--size", text); }
 
 Result<ScreenIndirectSettings> settingsOf(const TechniqueOptions& options, Extent2D resolution) {
     return measure::settingsOf(options, resolution, measure::Spelling::options);
@@ -31,12 +28,12 @@ Result<Plan> planOf(const ScreenIndirectSettings& settings) {
 
 Result<std::unique_ptr<runner::Backend>> createBackend(const DeviceChoice& choice) {
     const auto isa = cpu::isaFromName(choice.isa);
-    if (!isa)
-        return Error{isa.error().code, "--" + isa.error().message};
+    if (!isa) return Error{isa.error().code, "--" + isa.error().message};
     if (choice.backend == "cpu" && !choice.device.empty())
         return measure::unexpected("--device", choice.device, "--backend vulkan or opengl");
     auto backend = runner::createBackend({choice.backend, choice.device, *isa, choice.threads, false});
-    if (backend || backend.error().message.starts_with("Vulkan: ") || backend.error().message.starts_with("OpenGL: "))
+    if (backend || backend.error().message.starts_with("Vulkan: ") ||
+        backend.error().message.starts_with("OpenGL: "))
         return backend;
     return Error{backend.error().code, "--" + backend.error().message};
 }
@@ -47,22 +44,16 @@ Result<runner::Precision> precisionOf(const DeviceChoice& choice) {
 
 Result<Preparation> prepare(const TechniqueOptions& technique, const DeviceChoice& choice) {
     const auto extent = parseSize(technique.size);
-    if (!extent)
-        return extent.error();
+    if (!extent) return extent.error();
     const auto settings = settingsOf(technique, *extent);
-    if (!settings)
-        return settings.error();
+    if (!settings) return settings.error();
     const auto plan = planOf(*settings);
-    if (!plan)
-        return plan.error();
+    if (!plan) return plan.error();
     const auto precision = precisionOf(choice);
-    if (!precision)
-        return precision.error();
+    if (!precision) return precision.error();
     auto backend = createBackend(choice);
-    if (!backend)
-        return backend.error();
-    if (auto enough = checkMemory(**backend, *plan, *extent); !enough)
-        return enough.error();
+    if (!backend) return backend.error();
+    if (auto enough = checkMemory(**backend, *plan, *extent); !enough) return enough.error();
     return Preparation{*std::move(backend), *precision, *extent};
 }
 

@@ -27,10 +27,8 @@ Result<fs::path> createScratchFolder(const fs::path& parent) {
     constexpr int attempts = 1000; // names that other runs may hold, or have left in a crash
     for (int i = 0; i < attempts; ++i) {
         const fs::path scratch = parent / (".rebound-" + std::to_string(i) + ".partial");
-        if (fs::create_directory(scratch, failure))
-            return scratch;
-        if (failure && failure != std::errc::file_exists)
-            break;
+        if (fs::create_directory(scratch, failure)) return scratch;
+        if (failure && failure != std::errc::file_exists) break;
     }
     return unusable(parent,
                     failure ? failure.message() : "too many unfinished runs have left their files there");
@@ -44,20 +42,16 @@ public:
     CreatedFolders& operator=(const CreatedFolders&) = delete;
     ~CreatedFolders() {
         std::error_code ignored;
-        for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder)
-            fs::remove(*folder, ignored);
+        for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) fs::remove(*folder, ignored);
     }
 
     Result<> create(const fs::path& folder) {
         std::error_code failure;
-        if (fs::is_directory(folder, failure))
-            return {};
+        if (fs::is_directory(folder, failure)) return {};
         if (const fs::path parent = folder.parent_path(); !parent.empty() && parent != folder)
-            if (auto created = create(parent); !created)
-                return created;
+            if (auto created = create(parent); !created) return created;
         // A path that ends in a separator or a dot names the folder that was just created.
-        if (fs::is_directory(folder, failure))
-            return {};
+        if (fs::is_directory(folder, failure)) return {};
         if (!fs::create_directory(folder, failure))
             return unusable(folder, failure ? failure.message() : "it is not a folder");
         folders.push_back(folder);
@@ -87,11 +81,9 @@ public:
 
     Result<> replace(const fs::path& target, const std::string& name) {
         std::error_code failure;
-        if (fs::is_directory(target, failure))
-            return unwritable(target, "it is a folder");
+        if (fs::is_directory(target, failure)) return unwritable(target, "it is a folder");
         if (fs::exists(fs::symlink_status(target, failure)))
-            if (auto moved = move(target, folder / ("old-" + name), target); !moved)
-                return moved;
+            if (auto moved = move(target, folder / ("old-" + name), target); !moved) return moved;
         return move(newFile(name), target, target);
     }
 
@@ -107,8 +99,7 @@ private:
     Result<> move(const fs::path& from, const fs::path& to, const fs::path& target) {
         std::error_code failure;
         fs::rename(from, to, failure);
-        if (failure)
-            return unwritable(target, failure.message());
+        if (failure) return unwritable(target, failure.message());
         moves.push_back({from, to});
         return {};
     }
@@ -126,14 +117,11 @@ OutputFile textFile(const std::string& name, std::string text) {
 }
 
 Result<> checkOutputFolder(const fs::path& folder) {
-    if (folder.empty())
-        return invalidArgument("--out is empty; a folder was expected");
+    if (folder.empty()) return invalidArgument("--out is empty; a folder was expected");
     CreatedFolders created;
-    if (auto exists = created.create(folder); !exists)
-        return exists;
+    if (auto exists = created.create(folder); !exists) return exists;
     const auto scratch = createScratchFolder(folder);
-    if (!scratch)
-        return scratch.error();
+    if (!scratch) return scratch.error();
     std::error_code ignored;
     fs::remove(*scratch, ignored);
     return {};
@@ -141,18 +129,14 @@ Result<> checkOutputFolder(const fs::path& folder) {
 
 Result<> writeOutputFolder(const fs::path& folder, const std::vector<OutputFile>& files) {
     CreatedFolders created;
-    if (auto exists = created.create(folder); !exists)
-        return exists;
+    if (auto exists = created.create(folder); !exists) return exists;
     const auto scratchFolder = createScratchFolder(folder);
-    if (!scratchFolder)
-        return scratchFolder.error();
+    if (!scratchFolder) return scratchFolder.error();
     Scratch scratch(*scratchFolder);
     for (const OutputFile& file : files)
-        if (auto written = file.write(scratch.newFile(file.name)); !written)
-            return written;
+        if (auto written = file.write(scratch.newFile(file.name)); !written) return written;
     for (const OutputFile& file : files)
-        if (auto replaced = scratch.replace(folder / file.name, file.name); !replaced)
-            return replaced;
+        if (auto replaced = scratch.replace(folder / file.name, file.name); !replaced) return replaced;
     scratch.keep();
     created.keep();
     return {};

@@ -52,8 +52,7 @@ DepthSpan spanOf(const lab::Image& depth) {
     std::vector<float> sorted;
     std::copy_if(depth.data.begin(), depth.data.end(), std::back_inserter(sorted),
                  [](float d) { return d > 0.0f; });
-    if (sorted.empty())
-        return {};
+    if (sorted.empty()) return {};
     std::sort(sorted.begin(), sorted.end());
     return {sorted.front(), sorted[(sorted.size() - 1) * 98 / 100]};
 }
@@ -79,7 +78,9 @@ std::string depthCaption(const DepthSpan& span) {
 lab::Picture contactSheetOf(const RenderedImages& images, const lab::Frame& frame,
                             const lab::ToneCurve& curve) {
     const int factor = (std::max(frame.depth.width, frame.depth.height) + largestSide - 1) / largestSide;
-    const auto shown = [&](const lab::Image& image) { return lab::toneMap(lab::reduced(image, factor), curve); };
+    const auto shown = [&](const lab::Image& image) {
+        return lab::toneMap(lab::reduced(image, factor), curve);
+    };
     const DepthSpan span = spanOf(frame.depth);
     return lab::contactSheet({{"direct", shown(images.direct)},
                               {"indirect, albedo not in it", shown(images.indirect)},
@@ -95,11 +96,11 @@ lab::Picture differencePicture(const lab::Image& difference, double scale) {
     constexpr glm::vec3 cold(0.230f, 0.299f, 0.754f), warm(0.706f, 0.016f, 0.150f);
     lab::Picture picture{difference.width, difference.height, {}};
     for (size_t i = 0; i < difference.data.size(); i += 3) {
-        const float value = lab::luminance({difference.data[i], difference.data[i + 1], difference.data[i + 2]});
+        const float value =
+            lab::luminance({difference.data[i], difference.data[i + 1], difference.data[i + 2]});
         const float share = std::clamp(value / float(std::max(scale, 1e-30)), -1.0f, 1.0f);
         const glm::vec3 color = glm::mix(glm::vec3(0.97f), share < 0.0f ? cold : warm, std::abs(share));
-        for (int c = 0; c < 3; ++c)
-            picture.rgb.push_back(byteOf(color[c]));
+        for (int c = 0; c < 3; ++c) picture.rgb.push_back(byteOf(color[c]));
     }
     return picture;
 }

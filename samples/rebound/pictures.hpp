@@ -2,8 +2,8 @@
 // Pictures of a frame for people: what went in, and what came out.
 #pragma once
 
-#include "lab/rays/frame.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/rays/frame.hpp"
 
 namespace rebound::cli {
 

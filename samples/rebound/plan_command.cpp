@@ -14,24 +14,19 @@ namespace {
 
 Result<> printPlan(const TechniqueOptions& options) {
     const auto extent = parseSize(options.size);
-    if (!extent)
-        return extent.error();
+    if (!extent) return extent.error();
     const auto settings = settingsOf(options, *extent);
-    if (!settings)
-        return settings.error();
+    if (!settings) return settings.error();
     const auto plan = planOf(*settings);
-    if (!plan)
-        return plan.error();
+    if (!plan) return plan.error();
     DeviceChoice choice;
     choice.threads = 1; // nothing runs
     const auto backend = createBackend(choice);
-    if (!backend)
-        return backend.error();
+    if (!backend) return backend.error();
     const auto use = (*backend)->memoryUse(*plan);
-    if (!use)
-        return use.error();
-    std::cout << rebound::toText(*plan) << "memory on the CPU " << toText(*use)
-              << "\nmemory on a GPU " << toText(memoryUse(*plan)) << '\n';
+    if (!use) return use.error();
+    std::cout << rebound::toText(*plan) << "memory on the CPU " << toText(*use) << "\nmemory on a GPU "
+              << toText(memoryUse(*plan)) << '\n';
     return {};
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands.hpp"
 #include "frame_source.hpp"
-#include "lab/rays/parallel_rows.hpp"
 #include "lab/measure/measurement.hpp"
+#include "lab/rays/parallel_rows.hpp"
 #include "options.hpp"
 #include "reference_render.hpp"
 #include "report.hpp"
@@ -68,8 +68,7 @@ void replay(const lab::EmbreeScene& scene, const std::vector<RecordedRay>& rays,
 Result<double> tracePass(const SourcedView& view, const lab::PathTracerOptions& options,
                          std::vector<RecordedRay>* record) {
     auto tracer = lab::PathTracer::create(view.scene, view.camera, options);
-    if (!tracer)
-        return tracer.error();
+    if (!tracer) return tracer.error();
     if (record)
         tracer->embreeScene().observeRays([record](const lab::Ray& ray, bool isShadowRay) {
             record->push_back({ray, isShadowRay});
@@ -81,17 +80,14 @@ Result<Rates> measure(const SourcedView& view, lab::PathTracerOptions options, i
     std::vector<RecordedRay> rays;
     lab::PathTracerOptions single = options;
     single.threads = 1;
-    if (auto recorded = tracePass(view, single, &rays); !recorded)
-        return recorded.error();
+    if (auto recorded = tracePass(view, single, &rays); !recorded) return recorded.error();
     auto scene = lab::EmbreeScene::build(view.scene);
-    if (!scene)
-        return scene.error();
+    if (!scene) return scene.error();
     Rates rates;
     rates.rays = rays.size();
     for (int i = 0; i < repeats; ++i) {
         const auto traced = tracePass(view, options, nullptr);
-        if (!traced)
-            return traced.error();
+        if (!traced) return traced.error();
         rates.traced.milliseconds.push_back(*traced);
         rates.alone.milliseconds.push_back(millisecondsOf([&] { replay(*scene, rays, options.threads); }));
     }
@@ -100,20 +96,16 @@ Result<Rates> measure(const SourcedView& view, lab::PathTracerOptions options, i
 
 Result<> benchRays(const RaysOptions& options) {
     const auto extent = parseSize(options.size);
-    if (!extent)
-        return extent.error();
+    if (!extent) return extent.error();
     ReferenceOptions reference;
     reference.bounces = options.bounces;
     reference.samples = lab::pathTracerReplicates;
     const auto tracing = pathTracerOptionsOf(reference, *extent, options.threads);
-    if (!tracing)
-        return tracing.error();
+    if (!tracing) return tracing.error();
     const auto view = loadView(options.source);
-    if (!view)
-        return view.error();
+    if (!view) return view.error();
     const auto rates = measure(*view, *tracing, options.repeats);
-    if (!rates)
-        return rates.error();
+    if (!rates) return rates.error();
     const double traced = rates->perSecond(rates->traced), alone = rates->perSecond(rates->alone);
     if (options.json) {
         const Json json{

@@ -2,11 +2,11 @@
 #include "reference_render.hpp"
 
 #include "frame_source.hpp"
-#include "lab/scenes/camera_json.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/light/reference_cache.hpp"
-#include "memory_check.hpp"
 #include "lab/measure/named_values.hpp"
+#include "lab/scenes/camera_json.hpp"
+#include "memory_check.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
@@ -41,15 +41,13 @@ constexpr std::pair<std::string_view, std::string_view> optionNames[] = {
 
 Error renamed(Error error) {
     for (const auto& [option, name] : optionNames)
-        if (error.message.starts_with(option))
-            error.message.replace(0, option.size(), name);
+        if (error.message.starts_with(option)) error.message.replace(0, option.size(), name);
     return error;
 }
 
 lab::Image sumOf(const lab::Image& base, const lab::Image& factor, const lab::Image& light) {
     lab::Image sum = base;
-    for (size_t i = 0; i < sum.data.size(); ++i)
-        sum.data[i] += factor.data[i] * light.data[i];
+    for (size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += factor.data[i] * light.data[i];
     return sum;
 }
 
@@ -61,8 +59,7 @@ RenderedImages composed(const lab::Frame& frame, const lab::PathTracedLight& lig
     images.direct = sumOf(emission, light.albedo, light.direct);
     images.indirect = light.indirect;
     images.final = sumOf(images.direct, light.albedo, light.indirect);
-    if (!light.glossy.empty())
-        images.final = sumOf(images.final, lab::Image(extent, 3, 1.0f), light.glossy);
+    if (!light.glossy.empty()) images.final = sumOf(images.final, lab::Image(extent, 3, 1.0f), light.glossy);
     return images;
 }
 
@@ -94,15 +91,13 @@ std::vector<OutputFile> filesOf(const lab::Frame& frame, const lab::PathTracedLi
     files.push_back(exrFile("direct.exr", light.direct, full));
     files.push_back(exrFile("first_bounce.exr", light.firstBounce, full));
     files.push_back(exrFile("indirect.exr", light.indirect, full));
-    if (!light.glossy.empty())
-        files.push_back(exrFile("glossy.exr", light.glossy, full));
+    if (!light.glossy.empty()) files.push_back(exrFile("glossy.exr", light.glossy, full));
     files.push_back(exrFile("standard_error.exr", light.standardError, full));
     files.push_back(exrFile("final.exr", images.final, full));
     files.push_back(exrFile("depth.exr", frame.depth, full));
     files.push_back(exrFile("normal.exr", frame.normal, full));
     files.push_back(exrFile("albedo.exr", light.albedo, lab::ExrPrecision::half));
-    if (!frame.emission.empty())
-        files.push_back(exrFile("emission.exr", frame.emission, full));
+    if (!frame.emission.empty()) files.push_back(exrFile("emission.exr", frame.emission, full));
     const auto png = [&](const char* name, const lab::Image& image) {
         files.push_back(
             {name, [&](const fs::path& path) { return lab::writePng(path, lab::toneMap(image, curve)); }});
@@ -126,9 +121,7 @@ Result<lab::PathTracedLight> trace(const SourcedView& view, lab::PathTracerOptio
 
 } // namespace
 
-const char* nameOf(lab::GlossyModel value) {
-    return measure::nameIn<lab::GlossyModel>(glossyNames, value);
-}
+const char* nameOf(lab::GlossyModel value) { return measure::nameIn<lab::GlossyModel>(glossyNames, value); }
 
 void addReferenceOptions(CLI::App& app, ReferenceOptions& o) {
     app.add_option("--bounces", o.bounces,
@@ -163,52 +156,41 @@ Result<lab::PathTracerOptions> pathTracerOptionsOf(const ReferenceOptions& o, Ex
     options.seed = o.seed.value_or(options.seed);
     if (o.glossy) {
         const auto glossy = measure::valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
-        if (!glossy)
-            return glossy.error();
+        if (!glossy) return glossy.error();
         options.glossy = *glossy;
     }
-    if (auto valid = lab::validate(options); !valid)
-        return renamed(valid.error());
+    if (auto valid = lab::validate(options); !valid) return renamed(valid.error());
     return options;
 }
 
 Result<> renderReference(const SourceOptions& source, const std::string& size, int threads,
                          const ReferenceOptions& reference, const std::string& out) {
     const auto extent = parseSize(size);
-    if (!extent)
-        return extent.error();
+    if (!extent) return extent.error();
     const auto options = pathTracerOptionsOf(reference, *extent, threads);
-    if (!options)
-        return options.error();
-    if (auto enough = checkMemory(*extent, bytesPerPixel); !enough)
-        return enough;
-    if (auto writable = checkOutputFolder(out); !writable)
-        return writable;
+    if (!options) return options.error();
+    if (auto enough = checkMemory(*extent, bytesPerPixel); !enough) return enough;
+    if (auto writable = checkOutputFolder(out); !writable) return writable;
     const auto view = loadView(source);
-    if (!view)
-        return view.error();
+    if (!view) return view.error();
     const auto frame = lab::renderFrame(view->scene, view->camera,
                                         {.extent = *extent, .lightSamples = 1, .threads = threads});
-    if (!frame)
-        return frame.error();
+    if (!frame) return frame.error();
     const auto light = trace(*view, *options, out);
-    if (!light)
-        return light.error();
+    if (!light) return light.error();
 
     const RenderedImages images = composed(*frame, *light);
     const lab::ToneCurve curve = lab::automaticToneCurve(images.final);
     const Json meta = describe(source, *view, *options, *light, curve);
     const std::vector<OutputFile> files = filesOf(*frame, *light, images, curve, meta);
-    if (auto written = writeOutputFolder(out, files); !written)
-        return written;
+    if (auto written = writeOutputFolder(out, files); !written) return written;
     std::cout << source.scene << ", camera " << view->camera.name << ", " << extent->width << "x"
               << extent->height << ", path traced\n"
               << light->samples << " paths a pixel, up to " << options->bounces
               << " surfaces before the visible one, glossy " << nameOf(options->glossy)
               << formatted(", standard error %.2f %% of the mean\n", 100.0 * light->relativeError)
               << "written to " << out << ":";
-    for (const OutputFile& file : files)
-        std::cout << ' ' << file.name;
+    for (const OutputFile& file : files) std::cout << ' ' << file.name;
     std::cout << "\nthe same command with more paths goes on from the .paths file there\n";
     return {};
 }

@@ -4,12 +4,12 @@
 #include "lab/images/image_files.hpp"
 #include "lab/measure/frame_pipeline.hpp"
 #include "lab/measure/named_values.hpp"
+#include "lab/runner/texels.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "reference_render.hpp"
 #include "report.hpp"
-#include "lab/runner/texels.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -36,7 +36,8 @@ struct RenderOptions {
 
 std::vector<OutputFile> imageFiles(const RenderedImages& images, const lab::ToneCurve& curve,
                                    runner::Precision hostPrecision) {
-    const auto precision = hostPrecision == runner::Precision::half ? lab::ExrPrecision::half : lab::ExrPrecision::full;
+    const auto precision =
+        hostPrecision == runner::Precision::half ? lab::ExrPrecision::half : lab::ExrPrecision::full;
     std::vector<OutputFile> files;
     const auto add = [&](const std::string& name, const lab::Image& image) {
         files.push_back({name + ".exr", [&image, precision](const fs::path& path) {
@@ -62,8 +63,7 @@ Json timingsToJson(Json json, const std::vector<PassTiming>& timings, double fra
 
 std::string timingTable(const std::vector<PassTiming>& timings, double frameMilliseconds) {
     std::vector<TableRow> rows;
-    for (const PassTiming& pass : timings)
-        rows.push_back({pass.label, {pass.milliseconds}});
+    for (const PassTiming& pass : timings) rows.push_back({pass.label, {pass.milliseconds}});
     rows.push_back({"frame", {frameMilliseconds}});
     return toTable({"pass", "ms"}, rows);
 }
@@ -71,8 +71,7 @@ std::string timingTable(const std::vector<PassTiming>& timings, double frameMill
 // The first frame after the plan was compiled pays for memory that was not touched before; the second is
 // measured.
 Result<double> runMeasured(measure::FramePipeline& pipeline) {
-    if (auto first = pipeline.run(); !first)
-        return first;
+    if (auto first = pipeline.run(); !first) return first;
     return pipeline.run();
 }
 
@@ -84,34 +83,26 @@ void printLimited(const measure::FramePipeline& pipeline) {
 
 Result<> render(const RenderOptions& options) {
     auto preparation = prepare(options.technique, options.device);
-    if (!preparation)
-        return preparation.error();
-    if (auto writable = checkOutputFolder(options.out); !writable)
-        return writable;
+    if (!preparation) return preparation.error();
+    if (auto writable = checkOutputFolder(options.out); !writable) return writable;
     const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
-    if (!source)
-        return source.error();
+    if (!source) return source.error();
     const auto settings = settingsOf(options.technique, source->frame.depth.extent());
-    if (!settings)
-        return settings.error();
-    auto pipeline =
-        measure::FramePipeline::create(source->frame, *settings, *preparation->backend, preparation->precision);
-    if (!pipeline)
-        return measure::spelled(pipeline.error(), measure::Spelling::options);
+    if (!settings) return settings.error();
+    auto pipeline = measure::FramePipeline::create(source->frame, *settings, *preparation->backend,
+                                                   preparation->precision);
+    if (!pipeline) return measure::spelled(pipeline.error(), measure::Spelling::options);
     const auto milliseconds = runMeasured(*pipeline);
-    if (!milliseconds)
-        return milliseconds.error();
+    if (!milliseconds) return milliseconds.error();
 
     auto indirect = pipeline->indirect(), composed = pipeline->composed();
-    if (!indirect)
-        return indirect.error();
-    if (!composed)
-        return composed.error();
+    if (!indirect) return indirect.error();
+    if (!composed) return composed.error();
     const RenderedImages images{pipeline->direct(), *std::move(indirect), *std::move(composed)};
     const lab::ToneCurve curve = lab::automaticToneCurve(images.final);
     Json figures =
-        timingsToJson(runToJson(*source, pipeline->settings(), options.technique.preset, preparation->backend->info(),
-                                preparation->precision, pipeline->memoryUse()),
+        timingsToJson(runToJson(*source, pipeline->settings(), options.technique.preset,
+                                preparation->backend->info(), preparation->precision, pipeline->memoryUse()),
                       pipeline->timings(), *milliseconds);
     figures["exposure"] = curve.exposure;
     std::vector<OutputFile> files = imageFiles(images, curve, preparation->precision);
@@ -119,19 +110,17 @@ Result<> render(const RenderOptions& options) {
                          return lab::writePng(path, contactSheetOf(images, source->frame, curve));
                      }});
     files.push_back(textFile("timings.json", toText(figures)));
-    if (auto written = writeOutputFolder(options.out, files); !written)
-        return written;
+    if (auto written = writeOutputFolder(options.out, files); !written) return written;
 
-    std::cout << describeRun(*source, pipeline->settings(), options.technique.preset, preparation->backend->info(),
-                             preparation->precision)
+    std::cout << describeRun(*source, pipeline->settings(), options.technique.preset,
+                             preparation->backend->info(), preparation->precision)
               << '\n'
               << timingTable(pipeline->timings(), *milliseconds) << "\nmemory "
               << toText(pipeline->memoryUse()) << "\nexposure " << curve.exposure
               << ", then 1 - exp(-x) and sRGB, in every picture\n";
     printLimited(*pipeline);
     std::cout << "written to " << options.out << ":";
-    for (const OutputFile& file : files)
-        std::cout << ' ' << file.name;
+    for (const OutputFile& file : files) std::cout << ' ' << file.name;
     std::cout << '\n';
     return {};
 }
@@ -139,12 +128,14 @@ Result<> render(const RenderOptions& options) {
 // Options that the chosen technique would ignore are mistakes.
 Result<> checkOptions(const CLI::App& app, const RenderOptions& options) {
     if (options.name != screenIndirect && options.name != reference)
-        return measure::unexpected("--technique", options.name, std::string("one of ") + screenIndirect + ", " + reference);
+        return measure::unexpected("--technique", options.name,
+                                   std::string("one of ") + screenIndirect + ", " + reference);
     const bool traced = options.name == reference;
     for (const CLI::Option* option : app.get_options()) {
         const std::string name = "--" + (option->get_lnames().empty() ? "" : option->get_lnames()[0]);
-        const bool ignored = traced ? option->get_group() == techniqueGroup || option->get_group() == deviceGroup ||
-                                          name == "--frame" || name == "--light-samples"
+        const bool ignored = traced ? option->get_group() == techniqueGroup ||
+                                          option->get_group() == deviceGroup || name == "--frame" ||
+                                          name == "--light-samples"
                                     : option->get_group() == referenceGroup;
         if (option->count() > 0 && ignored && name != "--size" && name != "--threads")
             return invalidArgument(name + " was given, which --technique " + options.name + " does not use");
@@ -153,11 +144,10 @@ Result<> checkOptions(const CLI::App& app, const RenderOptions& options) {
 }
 
 Result<> renderChosen(const CLI::App& app, const RenderOptions& options) {
-    if (auto valid = checkOptions(app, options); !valid)
-        return valid;
+    if (auto valid = checkOptions(app, options); !valid) return valid;
     if (options.name == reference)
-        return renderReference(options.source, options.technique.size, options.device.threads, options.reference,
-                               options.out);
+        return renderReference(options.source, options.technique.size, options.device.threads,
+                               options.reference, options.out);
     return render(options);
 }
 
@@ -179,25 +169,26 @@ Command addRenderCommand(CLI::App& program) {
                     "folder for the outputs, created where it is missing (default: out)")
         ->option_text("DIR")
         ->group("Output");
-    app->footer("Outputs, linear Rec. 709, in half precision or, with --precision float, in single:\n"
-                "  direct.exr    emission + albedo * E / pi, E straight from the lights [W m^-2 sr^-1]\n"
-                "  indirect.exr  E / pi of light that met one other surface, albedo not in it\n"
-                "  final.exr     direct + albedo * indirect\n"
-                "  direct.png, indirect.png, final.png: the same through one tone curve\n"
-                "  contact_sheet.png: these, albedo, normals and depth\n"
-                "  timings.json: milliseconds of every pass in one frame, memory [bytes], settings\n"
-                "Every surface is Lambertian and sends its direct light and emission to the others.\n"
-                "--technique reference writes direct.exr and indirect.exr as E / pi, E of light that met 0 or\n"
-                "1 to --bounces surfaces before, first_bounce.exr, standard_error.exr (of indirect's luminance),\n"
-                "and the frame with meta.json, so that --frame takes the folder. It goes on where an\n"
-                "interrupted run, or one with fewer paths, has left a .paths file in the folder.\n"
-                "\n"
-                "Examples:\n"
-                "  rebound render\n"
-                "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
-                "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
-                "  rebound render builtin:cornell --technique reference --size 320x180 --bounces 1 --error 0.01\n"
-                "  rebound render --frame captured --preset half-256 --precision float");
+    app->footer(
+        "Outputs, linear Rec. 709, in half precision or, with --precision float, in single:\n"
+        "  direct.exr    emission + albedo * E / pi, E straight from the lights [W m^-2 sr^-1]\n"
+        "  indirect.exr  E / pi of light that met one other surface, albedo not in it\n"
+        "  final.exr     direct + albedo * indirect\n"
+        "  direct.png, indirect.png, final.png: the same through one tone curve\n"
+        "  contact_sheet.png: these, albedo, normals and depth\n"
+        "  timings.json: milliseconds of every pass in one frame, memory [bytes], settings\n"
+        "Every surface is Lambertian and sends its direct light and emission to the others.\n"
+        "--technique reference writes direct.exr and indirect.exr as E / pi, E of light that met 0 or\n"
+        "1 to --bounces surfaces before, first_bounce.exr, standard_error.exr (of indirect's luminance),\n"
+        "and the frame with meta.json, so that --frame takes the folder. It goes on where an\n"
+        "interrupted run, or one with fewer paths, has left a .paths file in the folder.\n"
+        "\n"
+        "Examples:\n"
+        "  rebound render\n"
+        "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
+        "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
+        "  rebound render builtin:cornell --technique reference --size 320x180 --bounces 1 --error 0.01\n"
+        "  rebound render --frame captured --preset half-256 --precision float");
     return [app, options] { return exitCodeOf(renderChosen(*app, *options)); };
 }
 

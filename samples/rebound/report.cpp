@@ -11,9 +11,7 @@ std::string plural(int count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string megabytes(size_t bytes) {
-    return formatted("%.2f MB", double(bytes) / 1e6);
-}
+std::string megabytes(size_t bytes) { return formatted("%.2f MB", double(bytes) / 1e6); }
 
 } // namespace
 
@@ -22,10 +20,10 @@ std::string toText(const Json& json) {
 }
 
 std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings& s,
-                        const std::string& preset, const runner::BackendInfo& backend, runner::Precision precision) {
+                        const std::string& preset, const runner::BackendInfo& backend,
+                        runner::Precision precision) {
     std::string text = source.name;
-    if (!source.frame.camera.name.empty())
-        text += ", camera " + source.frame.camera.name;
+    if (!source.frame.camera.name.empty()) text += ", camera " + source.frame.camera.name;
     text += ", " + std::to_string(s.resolution.width) + "x" + std::to_string(s.resolution.height) + ", " +
             runner::toText(backend) + ", images in " + nameOf(precision) + "\n";
     text += preset + ": from " + nameOf(s.start) + " resolution, " + plural(s.levels, "level") + ", " +
@@ -33,12 +31,9 @@ std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings
             formatted("ring radius %g texels, ", double(s.ringRadius)) + nameOf(s.reduction) +
             ", form factor " + nameOf(s.formFactor) +
             formatted(", minimum cosine %g", double(s.minimumCosine));
-    if (!s.coverScreen)
-        text += ", not covering the screen";
-    if (!s.smooth)
-        text += ", not smoothed";
-    if (s.onlyLevel)
-        text += ", only level " + std::to_string(*s.onlyLevel);
+    if (!s.coverScreen) text += ", not covering the screen";
+    if (!s.smooth) text += ", not smoothed";
+    if (s.onlyLevel) text += ", only level " + std::to_string(*s.onlyLevel);
     return text + "\n";
 }
 
@@ -66,8 +61,7 @@ Json runToJson(const SourcedFrame& source, const ScreenIndirectSettings& s, cons
 
 std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>& rows) {
     size_t nameWidth = headings[0].size();
-    for (const TableRow& row : rows)
-        nameWidth = std::max(nameWidth, row.first.size());
+    for (const TableRow& row : rows) nameWidth = std::max(nameWidth, row.first.size());
     const auto widthOf = [](const std::string& heading) { return int(std::max<size_t>(heading.size(), 12)); };
     const auto padded = [&](const std::string& name) {
         return name + std::string(nameWidth - name.size(), ' ');
@@ -78,8 +72,7 @@ std::string toTable(const std::vector<std::string>& headings, const std::vector<
     text += "\n";
     const std::string rule(text.size() - 1, '-');
     for (const TableRow& row : rows) {
-        if (&row == &rows.back())
-            text += rule + "\n";
+        if (&row == &rows.back()) text += rule + "\n";
         text += padded(row.first);
         for (size_t i = 0; i < row.second.size(); ++i)
             text += formatted("  %*.2f", widthOf(headings[i + 1]), row.second[i]);

@@ -34,16 +34,16 @@ Camera cameraOf(const lab::CameraView& view, Extent2D extent) {
 // How the G-buffer is to be read: each line is a decision that the renderer has made.
 GBufferConventions conventionsOf(const lab::CameraView& view) {
     GBufferConventions c;
-    c.depthEncoding = DepthEncoding::device;           // the depth attachment itself
-    c.depthRange = DepthRange::zeroToOne;              // Vulkan's clip space
-    c.depthDirection = DepthDirection::reversed;       // cleared to 0, compared with GREATER
+    c.depthEncoding = DepthEncoding::device;     // the depth attachment itself
+    c.depthRange = DepthRange::zeroToOne;        // Vulkan's clip space
+    c.depthDirection = DepthDirection::reversed; // cleared to 0, compared with GREATER
     c.farPlane = view.orthographic ? FarPlane::finite : FarPlane::infinite;
     c.projection = view.orthographic ? Projection::orthographic : Projection::perspective;
-    c.handedness = Handedness::right;                  // the camera looks down -z
-    c.firstRow = FirstRow::bottom;                     // viewport of positive height: row 0 has normalised device y = -1,
-                                                       // and the projection's negative m11 says that this is up
+    c.handedness = Handedness::right; // the camera looks down -z
+    c.firstRow = FirstRow::bottom;    // viewport of positive height: row 0 has normalised device y = -1,
+                                      // and the projection's negative m11 says that this is up
     c.normalSpace = NormalSpace::world;
-    c.normalEncoding = NormalEncoding::signedUnit;     // a float format
+    c.normalEncoding = NormalEncoding::signedUnit; // a float format
     return c;
 }
 // [/rebound conventions]

@@ -32,8 +32,10 @@ FrameLoop::~FrameLoop() { vkDeviceWaitIdle(context.device()); }
 
 Result<VkCommandBuffer> FrameLoop::begin() {
     const auto info = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-    auto begun = host::check(vkWaitForFences(context.device(), 1, &fences[current], VK_TRUE, UINT64_MAX), "waiting");
-    if (begun) begun = host::check(vkBeginCommandBuffer(commands[current], &info), "beginning a command buffer");
+    auto begun =
+        host::check(vkWaitForFences(context.device(), 1, &fences[current], VK_TRUE, UINT64_MAX), "waiting");
+    if (begun)
+        begun = host::check(vkBeginCommandBuffer(commands[current], &info), "beginning a command buffer");
     if (!begun) return begun.error();
     return commands[current];
 }

@@ -6,21 +6,25 @@ namespace {
 
 VkSamplerAddressMode addressMode(lab::Wrap wrap) {
     switch (wrap) {
-    case lab::Wrap::mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case lab::Wrap::clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case lab::Wrap::mirror:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case lab::Wrap::clamp:
+        return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    default:
+        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
     }
 }
 
 } // namespace
 
-Result<std::unique_ptr<GpuScene>> GpuScene::create(const host::VulkanContext& context, const lab::Scene& scene) {
+Result<std::unique_ptr<GpuScene>> GpuScene::create(const host::VulkanContext& context,
+                                                   const lab::Scene& scene) {
     std::unique_ptr<GpuScene> result(new GpuScene(context));
     result->addMeshes(sceneDataOf(scene));
     result->addMaterials(context.device(), scene);
     result->lights = lightsOf(scene);
-    result->lightBuffer =
-        result->objects.buffer(std::as_bytes(std::span(result->lights.lights)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    result->lightBuffer = result->objects.buffer(std::as_bytes(std::span(result->lights.lights)),
+                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     if (!result->objects.status()) return result->objects.status().error();
     return result;
 }
@@ -42,7 +46,8 @@ void GpuScene::addMaterials(VkDevice device, const lab::Scene& scene) {
     for (const lab::Texture& texture : scene.textures) {
         images.push_back(objects.texture({texture.width, texture.height}, VK_FORMAT_R8G8B8A8_SRGB,
                                          std::as_bytes(std::span(texture.rgba))));
-        samplers.push_back(objects.sampler(VK_FILTER_LINEAR, addressMode(texture.wrapS), addressMode(texture.wrapT)));
+        samplers.push_back(
+            objects.sampler(VK_FILTER_LINEAR, addressMode(texture.wrapS), addressMode(texture.wrapT)));
     }
     const uint32_t count = uint32_t(scene.materials.size());
     const VkDescriptorPool pool = objects.descriptorPool(count, {{sampled, 2 * count}});
@@ -64,7 +69,8 @@ void GpuScene::draw(VkCommandBuffer commands, VkPipelineLayout layout) const {
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &start);
     vkCmdBindIndexBuffer(commands, indices, 0, VK_INDEX_TYPE_UINT32);
     for (const SceneData::Part& part : parts) {
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &sets[part.material], 0, nullptr);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &sets[part.material],
+                                0, nullptr);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(MaterialConstants),
                            &constants[part.material]);
         vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, part.vertexOffset, 0);

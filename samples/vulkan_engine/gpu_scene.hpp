@@ -29,7 +29,7 @@ private:
     Objects objects;
     VkBuffer vertices = VK_NULL_HANDLE, indices = VK_NULL_HANDLE;
     std::vector<SceneData::Part> parts;
-    std::vector<VkDescriptorSet> sets; // by material
+    std::vector<VkDescriptorSet> sets;        // by material
     std::vector<MaterialConstants> constants; // by material, pushed
 };
 

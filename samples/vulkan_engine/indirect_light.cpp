@@ -22,8 +22,8 @@ Result<IndirectLight> IndirectLight::create(const host::VulkanContext& context, 
 // [/rebound device]
 
 // [rebound compile]
-Result<std::optional<vulkan::Program>> IndirectLight::compile(const std::string& preset,
-                                                              const GBufferConventions& conventions, Extent2D size) {
+Result<std::optional<vulkan::Program>>
+IndirectLight::compile(const std::string& preset, const GBufferConventions& conventions, Extent2D size) {
     auto settings = screenIndirectPreset(preset, size);
     if (!settings) return settings.error();
     settings->conventions = conventions;
@@ -39,7 +39,8 @@ Result<std::optional<vulkan::Program>> IndirectLight::compile(const std::string&
 // [/rebound compile]
 
 // [rebound record]
-Result<> IndirectLight::record(VkCommandBuffer commands, int frame, const ScreenIndirectFrame<vulkan::Image>& images) {
+Result<> IndirectLight::record(VkCommandBuffer commands, int frame,
+                               const ScreenIndirectFrame<vulkan::Image>& images) {
     auto inputs = screenIndirectInputs(current, images);
     if (!inputs) return inputs.error();
     return program->record(commands, frame, *inputs);

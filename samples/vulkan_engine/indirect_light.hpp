@@ -15,10 +15,12 @@ namespace rebound::engine {
 class IndirectLight {
 public:
     // Once.
-    static Result<IndirectLight> create(const host::VulkanContext&, bool timings, vulkan::MemoryAllocator = {});
+    static Result<IndirectLight> create(const host::VulkanContext&, bool timings,
+                                        vulkan::MemoryAllocator = {});
 
     // At the start and after a resize. The program before is handed out: it may be destroyed once the GPU is done with it.
-    Result<std::optional<vulkan::Program>> compile(const std::string& preset, const GBufferConventions&, Extent2D);
+    Result<std::optional<vulkan::Program>> compile(const std::string& preset, const GBufferConventions&,
+                                                   Extent2D);
 
     // Every frame.
     Result<> record(VkCommandBuffer, int frame, const ScreenIndirectFrame<vulkan::Image>&);

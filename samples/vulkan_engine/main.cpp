@@ -23,8 +23,9 @@ Result<> renderToFile(const Options& o, const host::VulkanContext& context, cons
     if (auto sized = (*renderer)->resize(o.size, camera); !sized) return sized;
     const int frames = o.frames.value_or(2);
     for (int i = 0; i < frames; ++i) {
-        const auto done = context.run(
-            [&](VkCommandBuffer commands) { return (*renderer)->record(commands, i % framesInFlight, camera); });
+        const auto done = context.run([&](VkCommandBuffer commands) {
+            return (*renderer)->record(commands, i % framesInFlight, camera);
+        });
         if (!done) return done;
     }
     auto composed = (*renderer)->read((*renderer)->targets().composed, 3);
@@ -47,7 +48,8 @@ Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& c
     auto context = host::VulkanContext::create(options);
     if (!context) return context.error();
 #ifdef REBOUND_HAS_WINDOW
-    auto done = o.window ? (*window)->show(o, *context, scene, camera) : renderToFile(o, *context, scene, camera);
+    auto done =
+        o.window ? (*window)->show(o, *context, scene, camera) : renderToFile(o, *context, scene, camera);
 #else
     auto done = renderToFile(o, *context, scene, camera);
 #endif

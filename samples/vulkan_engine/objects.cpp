@@ -6,11 +6,13 @@
 namespace rebound::engine {
 namespace {
 
-constexpr VkMemoryPropertyFlags hostMemory = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags hostMemory =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 Result<std::unique_ptr<host::VulkanBuffer>> stagingBuffer(const host::VulkanContext& context,
                                                           std::span<const std::byte> bytes) {
-    auto staging = host::VulkanBuffer::create(context, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, hostMemory);
+    auto staging =
+        host::VulkanBuffer::create(context, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, hostMemory);
     if (staging) std::memcpy((*staging)->mapped, bytes.data(), bytes.size());
     return staging;
 }
@@ -35,7 +37,8 @@ T* Objects::keep(Result<std::unique_ptr<T>> object) {
     return shared.get();
 }
 
-Objects::Image Objects::image(Extent2D extent, VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect) {
+Objects::Image Objects::image(Extent2D extent, VkFormat format, VkImageUsageFlags usage,
+                              VkImageAspectFlags aspect) {
     if (failed()) return {};
     const auto* image = keep(host::VulkanImage::create(context, extent, format, usage, aspect));
     return image ? Image{image->image, image->view, format, extent} : Image{};
@@ -45,8 +48,9 @@ VkBuffer Objects::buffer(std::span<const std::byte> bytes, VkBufferUsageFlags us
     if (failed()) return VK_NULL_HANDLE;
     auto staging = stagingBuffer(context, bytes);
     if (!staging) return fail(staging.error()), VK_NULL_HANDLE;
-    const auto* buffer = keep(host::VulkanBuffer::create(context, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                         VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT));
+    const auto* buffer =
+        keep(host::VulkanBuffer::create(context, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT));
     if (!buffer) return VK_NULL_HANDLE;
     made = context.run([&](VkCommandBuffer commands) -> Result<> {
         const VkBufferCopy all{0, 0, bytes.size()};
@@ -65,7 +69,8 @@ Objects::Image Objects::texture(Extent2D extent, VkFormat format, std::span<cons
     made = context.run([&](VkCommandBuffer commands) -> Result<> {
         host::recordTransition(commands, result.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
         host::recordUpload(commands, (*staging)->buffer, 0, result.image, extent);
-        host::recordTransition(commands, result.image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        host::recordTransition(commands, result.image, VK_IMAGE_LAYOUT_GENERAL,
+                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         return {};
     });
     return result;
@@ -75,13 +80,17 @@ host::VulkanBuffer* Objects::mappedBuffer(VkDeviceSize size, VkBufferUsageFlags 
     return failed() ? nullptr : keep(host::VulkanBuffer::create(context, size, usage, hostMemory));
 }
 
-VkDescriptorSetLayout Objects::setLayout(std::initializer_list<VkDescriptorType> types, VkShaderStageFlags stages) {
+VkDescriptorSetLayout Objects::setLayout(std::initializer_list<VkDescriptorType> types,
+                                         VkShaderStageFlags stages) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (VkDescriptorType type : types) bindings.push_back({uint32_t(bindings.size()), type, 1, stages, nullptr});
-    auto info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    for (VkDescriptorType type : types)
+        bindings.push_back({uint32_t(bindings.size()), type, 1, stages, nullptr});
+    auto info =
+        structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     info.bindingCount = uint32_t(bindings.size());
     info.pBindings = bindings.data();
-    return make(vkCreateDescriptorSetLayout, vkDestroyDescriptorSetLayout, info, "creating a descriptor set layout");
+    return make(vkCreateDescriptorSetLayout, vkDestroyDescriptorSetLayout, info,
+                "creating a descriptor set layout");
 }
 
 VkDescriptorPool Objects::descriptorPool(uint32_t sets, std::initializer_list<VkDescriptorPoolSize> sizes) {
@@ -98,12 +107,14 @@ VkDescriptorSet Objects::descriptorSet(VkDescriptorPool pool, VkDescriptorSetLay
     info.descriptorSetCount = 1;
     info.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    if (!failed()) made = host::check(vkAllocateDescriptorSets(context.device(), &info, &set), "allocating a descriptor set");
+    if (!failed())
+        made = host::check(vkAllocateDescriptorSets(context.device(), &info, &set),
+                           "allocating a descriptor set");
     return set;
 }
 
-VkPipelineLayout Objects::pipelineLayout(std::initializer_list<VkDescriptorSetLayout> sets, VkShaderStageFlags pushStages,
-                                         uint32_t pushSize) {
+VkPipelineLayout Objects::pipelineLayout(std::initializer_list<VkDescriptorSetLayout> sets,
+                                         VkShaderStageFlags pushStages, uint32_t pushSize) {
     const VkPushConstantRange push{pushStages, 0, pushSize};
     auto info = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     info.setLayoutCount = uint32_t(sets.size());
@@ -121,8 +132,8 @@ VkSampler Objects::sampler(VkFilter filter, VkSamplerAddressMode u, VkSamplerAdd
     return make(vkCreateSampler, vkDestroySampler, info, "creating a sampler");
 }
 
-void writeImage(VkDevice device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type, VkSampler sampler,
-                VkImageView view, VkImageLayout layout) {
+void writeImage(VkDevice device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                VkSampler sampler, VkImageView view, VkImageLayout layout) {
     const VkDescriptorImageInfo image{sampler, view, layout};
     auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.dstSet = set;
@@ -133,8 +144,8 @@ void writeImage(VkDevice device, VkDescriptorSet set, uint32_t binding, VkDescri
     vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
 }
 
-void writeBuffer(VkDevice device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type, VkBuffer buffer,
-                 VkDeviceSize size) {
+void writeBuffer(VkDevice device, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
+                 VkBuffer buffer, VkDeviceSize size) {
     const VkDescriptorBufferInfo range{buffer, 0, size};
     auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.dstSet = set;

@@ -29,8 +29,10 @@ public:
                 void(VKAPI_PTR* destroy)(VkDevice, Handle, const VkAllocationCallbacks*), const Info& info,
                 const char* what) {
         Handle handle = VK_NULL_HANDLE;
-        if (failed() || !(made = host::check(create(context.device(), &info, nullptr, &handle), what))) return VK_NULL_HANDLE;
-        destructors.push_back([device = context.device(), destroy, handle] { destroy(device, handle, nullptr); });
+        if (failed() || !(made = host::check(create(context.device(), &info, nullptr, &handle), what)))
+            return VK_NULL_HANDLE;
+        destructors.push_back(
+            [device = context.device(), destroy, handle] { destroy(device, handle, nullptr); });
         return handle;
     }
 
@@ -51,8 +53,8 @@ public:
     VkDescriptorSetLayout setLayout(std::initializer_list<VkDescriptorType>, VkShaderStageFlags);
     VkDescriptorPool descriptorPool(uint32_t sets, std::initializer_list<VkDescriptorPoolSize>);
     VkDescriptorSet descriptorSet(VkDescriptorPool, VkDescriptorSetLayout);
-    VkPipelineLayout pipelineLayout(std::initializer_list<VkDescriptorSetLayout>, VkShaderStageFlags pushStages = 0,
-                                    uint32_t pushSize = 0);
+    VkPipelineLayout pipelineLayout(std::initializer_list<VkDescriptorSetLayout>,
+                                    VkShaderStageFlags pushStages = 0, uint32_t pushSize = 0);
     VkSampler sampler(VkFilter, VkSamplerAddressMode u, VkSamplerAddressMode v);
 
     void fail(Error error) { made = std::move(error); }
@@ -69,7 +71,8 @@ private:
 };
 
 // Writes one descriptor of an image or of a buffer.
-void writeImage(VkDevice, VkDescriptorSet, uint32_t binding, VkDescriptorType, VkSampler, VkImageView, VkImageLayout);
+void writeImage(VkDevice, VkDescriptorSet, uint32_t binding, VkDescriptorType, VkSampler, VkImageView,
+                VkImageLayout);
 void writeBuffer(VkDevice, VkDescriptorSet, uint32_t binding, VkDescriptorType, VkBuffer, VkDeviceSize size);
 
 } // namespace rebound::engine

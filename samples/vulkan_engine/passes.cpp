@@ -23,7 +23,8 @@ VkShaderModule makeModule(Objects& objects, std::span<const uint32_t> spirv) {
 }
 
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits stage, VkShaderModule module) {
-    auto info = structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    auto info =
+        structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
     info.stage = stage;
     info.module = module;
     info.pName = "main";
@@ -36,13 +37,14 @@ VkRenderPass makeRenderPass(Objects& objects, std::initializer_list<VkFormat> co
     std::vector<VkAttachmentReference> references;
     const auto add = [&](VkFormat format, VkImageLayout layout, VkImageLayout finalLayout) {
         references.push_back({uint32_t(attachments.size()), layout});
-        attachments.push_back({0, format, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE,
-                               VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                               VK_IMAGE_LAYOUT_UNDEFINED, finalLayout});
+        attachments.push_back({0, format, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                               VK_ATTACHMENT_STORE_OP_STORE, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                               VK_ATTACHMENT_STORE_OP_DONT_CARE, VK_IMAGE_LAYOUT_UNDEFINED, finalLayout});
     };
     for (VkFormat format : colors)
         add(format, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    add(depthFormat, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    add(depthFormat, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+        VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     VkSubpassDescription subpass{};
     subpass.colorAttachmentCount = uint32_t(colors.size());
     subpass.pColorAttachments = references.data();
@@ -50,15 +52,16 @@ VkRenderPass makeRenderPass(Objects& objects, std::initializer_list<VkFormat> co
     constexpr VkPipelineStageFlags attachmentStages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
                                                       VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                                       VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-    constexpr VkAccessFlags writes = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    constexpr VkAccessFlags writes =
+        VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
     // [rebound gbuffer barriers]
     // Before: the frame before has read these images in compute shaders. After: compute shaders read them, the light
     // pass and Rebound alike.
     const VkSubpassDependency dependencies[] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | attachmentStages, attachmentStages, writes,
-         writes | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT, 0},
-        {0, VK_SUBPASS_EXTERNAL, attachmentStages, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, writes, VK_ACCESS_SHADER_READ_BIT,
-         0}};
+        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | attachmentStages, attachmentStages,
+         writes, writes | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT, 0},
+        {0, VK_SUBPASS_EXTERNAL, attachmentStages, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, writes,
+         VK_ACCESS_SHADER_READ_BIT, 0}};
     // [/rebound gbuffer barriers]
     auto info = structure<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
     info.attachmentCount = uint32_t(attachments.size());
@@ -75,8 +78,8 @@ VkRenderPass makeRenderPass(Objects& objects, std::initializer_list<VkFormat> co
 // Pipelines are made one at a time; make() takes functions of one object.
 template <class Info, VkResult(VKAPI_PTR* create)(VkDevice, VkPipelineCache, uint32_t, const Info*,
                                                   const VkAllocationCallbacks*, VkPipeline*)>
-VKAPI_ATTR VkResult VKAPI_CALL createOne(VkDevice device, const Info* info, const VkAllocationCallbacks* allocator,
-                                         VkPipeline* pipeline) {
+VKAPI_ATTR VkResult VKAPI_CALL createOne(VkDevice device, const Info* info,
+                                         const VkAllocationCallbacks* allocator, VkPipeline* pipeline) {
     return create(device, VK_NULL_HANDLE, 1, info, allocator, pipeline);
 }
 
@@ -89,37 +92,42 @@ VkPipeline makePipeline(Objects& objects, const GraphicsPipeline& p) {
         {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
         {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
         {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, textureCoordinate)}};
-    auto input = structure<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    auto input = structure<VkPipelineVertexInputStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     if (p.vertices) {
         input.vertexBindingDescriptionCount = 1;
         input.pVertexBindingDescriptions = &binding;
         input.vertexAttributeDescriptionCount = uint32_t(std::size(attributes));
         input.pVertexAttributeDescriptions = attributes;
     }
-    auto assembly =
-        structure<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    auto assembly = structure<VkPipelineInputAssemblyStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    auto viewport = structure<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    auto viewport =
+        structure<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
     viewport.viewportCount = viewport.scissorCount = 1;
     // Surfaces are two-sided: nothing is culled.
-    auto raster =
-        structure<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    auto raster = structure<VkPipelineRasterizationStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
     raster.lineWidth = 1.0f;
-    auto samples = structure<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    auto samples = structure<VkPipelineMultisampleStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    auto depth =
-        structure<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    auto depth = structure<VkPipelineDepthStencilStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
     depth.depthTestEnable = depth.depthWriteEnable = p.depth != VK_COMPARE_OP_ALWAYS;
     depth.depthCompareOp = p.depth;
     VkPipelineColorBlendAttachmentState opaque{};
     opaque.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                             VK_COLOR_COMPONENT_A_BIT;
     const std::vector<VkPipelineColorBlendAttachmentState> attachments(p.colors, opaque);
-    auto blend = structure<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    auto blend = structure<VkPipelineColorBlendStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
     blend.attachmentCount = p.colors;
     blend.pAttachments = attachments.data();
     const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    auto dynamic = structure<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    auto dynamic =
+        structure<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
     dynamic.dynamicStateCount = uint32_t(std::size(states));
     dynamic.pDynamicStates = states;
     auto info = structure<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
@@ -135,11 +143,12 @@ VkPipeline makePipeline(Objects& objects, const GraphicsPipeline& p) {
     info.pDynamicState = &dynamic;
     info.layout = p.layout;
     info.renderPass = p.pass;
-    return objects.make<VkPipeline>(createOne<VkGraphicsPipelineCreateInfo, vkCreateGraphicsPipelines>, vkDestroyPipeline,
-                                    info, "creating a pipeline");
+    return objects.make<VkPipeline>(createOne<VkGraphicsPipelineCreateInfo, vkCreateGraphicsPipelines>,
+                                    vkDestroyPipeline, info, "creating a pipeline");
 }
 
-VkFramebuffer makeFramebuffer(Objects& objects, VkRenderPass pass, std::initializer_list<Objects::Image> images) {
+VkFramebuffer makeFramebuffer(Objects& objects, VkRenderPass pass,
+                              std::initializer_list<Objects::Image> images) {
     std::vector<VkImageView> views;
     for (const Objects::Image& image : images) views.push_back(image.view);
     auto info = structure<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
@@ -158,22 +167,25 @@ Passes makePasses(Objects& objects, VkDescriptorSetLayout materialLayout) {
     p.nearest = objects.sampler(VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                 VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     p.frameLayout = objects.setLayout({VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC},
-                                      VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT);
-    p.lightLayout = objects.setLayout({sampled, sampled, sampled, sampled, sampled, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                                       VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                      VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
+                                          VK_SHADER_STAGE_COMPUTE_BIT);
+    p.lightLayout = objects.setLayout({sampled, sampled, sampled, sampled, sampled,
+                                       VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                       VK_SHADER_STAGE_COMPUTE_BIT);
     p.sceneLayout = objects.pipelineLayout({p.frameLayout, materialLayout}, VK_SHADER_STAGE_FRAGMENT_BIT,
                                            sizeof(MaterialConstants));
     p.lightPipelineLayout = objects.pipelineLayout({p.frameLayout, p.lightLayout});
     p.shadowPass = makeRenderPass(objects, {});
     p.gbufferPass = makeRenderPass(objects, {colorFormat, colorFormat, colorFormat, motionFormat});
-    p.shadow = makePipeline(objects, {shadow_vert, shadow_frag, p.sceneLayout, p.shadowPass, 0, VK_COMPARE_OP_LESS});
-    p.gbuffer = makePipeline(objects, {gbuffer_vert, gbuffer_frag, p.sceneLayout, p.gbufferPass, 4, VK_COMPARE_OP_GREATER});
+    p.shadow =
+        makePipeline(objects, {shadow_vert, shadow_frag, p.sceneLayout, p.shadowPass, 0, VK_COMPARE_OP_LESS});
+    p.gbuffer = makePipeline(
+        objects, {gbuffer_vert, gbuffer_frag, p.sceneLayout, p.gbufferPass, 4, VK_COMPARE_OP_GREATER});
     auto light = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     light.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, makeModule(objects, light_comp));
     light.layout = p.lightPipelineLayout;
-    p.light = objects.make<VkPipeline>(createOne<VkComputePipelineCreateInfo, vkCreateComputePipelines>, vkDestroyPipeline,
-                                       light, "creating a pipeline");
+    p.light = objects.make<VkPipeline>(createOne<VkComputePipelineCreateInfo, vkCreateComputePipelines>,
+                                       vkDestroyPipeline, light, "creating a pipeline");
     return p;
 }
 

@@ -9,7 +9,8 @@
 namespace rebound::engine {
 
 inline constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
-inline constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT; // of everything that Rebound reads or writes
+inline constexpr VkFormat colorFormat =
+    VK_FORMAT_R16G16B16A16_SFLOAT; // of everything that Rebound reads or writes
 inline constexpr VkFormat motionFormat = VK_FORMAT_R16G16_SFLOAT;
 
 // Its twin is in shaders/frame.glsl, where the fields are explained.
@@ -34,9 +35,9 @@ struct GraphicsPipeline {
     std::span<const uint32_t> vertex, fragment;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkRenderPass pass = VK_NULL_HANDLE;
-    uint32_t colors = 0;                            // attachments
-    VkCompareOp depth = VK_COMPARE_OP_ALWAYS;       // ALWAYS: no depth at all
-    bool vertices = true;                           // of Vertex; false: the shader makes its own
+    uint32_t colors = 0;                      // attachments
+    VkCompareOp depth = VK_COMPARE_OP_ALWAYS; // ALWAYS: no depth at all
+    bool vertices = true;                     // of Vertex; false: the shader makes its own
 };
 VkPipeline makePipeline(Objects&, const GraphicsPipeline&);
 // Of the first image's size.

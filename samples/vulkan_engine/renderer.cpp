@@ -9,8 +9,8 @@ namespace rebound::engine {
 namespace {
 
 // Images are in the layouts that they are used in: nothing changes but what is visible to whom.
-void recordBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written, VkPipelineStageFlags to,
-                   VkAccessFlags used) {
+void recordBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
+                   VkPipelineStageFlags to, VkAccessFlags used) {
     auto barrier = structure<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     barrier.srcAccessMask = written;
     barrier.dstAccessMask = used;
@@ -19,8 +19,9 @@ void recordBarrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccess
 
 } // namespace
 
-Result<std::unique_ptr<Renderer>> Renderer::create(const host::VulkanContext& context, const lab::Scene& scene,
-                                                   std::string preset, vulkan::MemoryAllocator allocator) {
+Result<std::unique_ptr<Renderer>> Renderer::create(const host::VulkanContext& context,
+                                                   const lab::Scene& scene, std::string preset,
+                                                   vulkan::MemoryAllocator allocator) {
     auto indirect = IndirectLight::create(context, true, std::move(allocator));
     if (!indirect) return indirect.error();
     std::unique_ptr<Renderer> renderer(new Renderer(context, std::move(preset), *std::move(indirect)));
@@ -71,13 +72,16 @@ void Renderer::makeTargets(Targets& t, Extent2D size) {
 Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
     if (uint32_t(std::max(size.width, size.height)) > largestSide)
         return Error{ErrorCode::unsupported, "the picture is " + std::to_string(size.width) + "x" +
-                                                 std::to_string(size.height) + "; this device's images have at most " +
+                                                 std::to_string(size.height) +
+                                                 "; this device's images have at most " +
                                                  std::to_string(largestSide) + " texels a side"};
     auto next = std::make_shared<Targets>(context);
     makeTargets(*next, size);
-    next->framebuffer = makeFramebuffer(next->objects, passes.gbufferPass,
-                                        {next->normal, next->albedo, next->emission, next->motion, next->depth});
-    constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    next->framebuffer =
+        makeFramebuffer(next->objects, passes.gbufferPass,
+                        {next->normal, next->albedo, next->emission, next->motion, next->depth});
+    constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                               image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                                buffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     const VkDescriptorPool pool = next->objects.descriptorPool(1, {{sampled, 5}, {image, 1}, {buffer, 1}});
     const VkDescriptorSet set = next->lightSet = next->objects.descriptorSet(pool, passes.lightLayout);
@@ -87,7 +91,8 @@ Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
     writeImage(device, set, 0, sampled, passes.nearest, next->depth.view, depthLayout);
     uint32_t binding = 1;
     for (const Objects::Image& color : {next->normal, next->albedo, next->emission})
-        writeImage(device, set, binding++, sampled, passes.nearest, color.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        writeImage(device, set, binding++, sampled, passes.nearest, color.view,
+                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     writeImage(device, set, 4, sampled, passes.nearest, shadowMap.view, depthLayout);
     writeImage(device, set, 5, image, VK_NULL_HANDLE, next->lit.view, VK_IMAGE_LAYOUT_GENERAL);
     writeBuffer(device, set, 6, buffer, scene->lightBuffer, VK_WHOLE_SIZE);
@@ -112,18 +117,20 @@ void Renderer::writeFrame(int frame, const lab::CameraView& view, const Camera& 
     FrameConstants k;
     k.viewProjection = viewProjection;
     k.previousViewProjection = previousViewProjection.value_or(viewProjection);
-    k.inverseViewProjection = glm::mat4(glm::inverse(glm::dmat4(camera.projection) * glm::dmat4(camera.view)));
+    k.inverseViewProjection =
+        glm::mat4(glm::inverse(glm::dmat4(camera.projection) * glm::dmat4(camera.view)));
     k.shadowMatrix = scene->lights.shadowMatrix;
     k.eye = view.orthographic ? glm::vec4(view.position - view.target, 0.0f) : glm::vec4(view.position, 1.0f);
     k.shadow = {scene->lights.shadowTexel, scene->lights.shadowPerspective ? 1.0f : 0.0f, 0.0f, 0.0f};
-    k.counts = {scene->lights.count, scene->lights.shadowed, current->lit.extent.width, current->lit.extent.height};
+    k.counts = {scene->lights.count, scene->lights.shadowed, current->lit.extent.width,
+                current->lit.extent.height};
     std::memcpy(frameBuffer->mapped + frameStride * VkDeviceSize(frame), &k, sizeof k);
     previousViewProjection = viewProjection;
 }
 
-void Renderer::recordRasterPass(VkCommandBuffer commands, int frame, VkRenderPass pass, VkFramebuffer framebuffer,
-                                VkPipeline pipeline, VkPipelineLayout layout, Extent2D size,
-                                std::span<const VkClearValue> clear) const {
+void Renderer::recordRasterPass(VkCommandBuffer commands, int frame, VkRenderPass pass,
+                                VkFramebuffer framebuffer, VkPipeline pipeline, VkPipelineLayout layout,
+                                Extent2D size, std::span<const VkClearValue> clear) const {
     auto begin = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     begin.renderPass = pass;
     begin.framebuffer = framebuffer;
@@ -145,7 +152,8 @@ void Renderer::recordLightPass(VkCommandBuffer commands, int frame) const {
     const uint32_t offset = uint32_t(frameStride) * uint32_t(frame);
     const VkDescriptorSet sets[] = {frameSet, current->lightSet};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, passes.light);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, passes.lightPipelineLayout, 0, 2, sets, 1, &offset);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, passes.lightPipelineLayout, 0, 2, sets,
+                            1, &offset);
     const auto groups = [](int side) { return uint32_t(side + 7) / 8; };
     vkCmdDispatch(commands, groups(current->lit.extent.width), groups(current->lit.extent.height), 1);
 }
@@ -177,15 +185,17 @@ Result<> Renderer::record(VkCommandBuffer commands, int frame, const lab::Camera
     farthest.depthStencil.depth = 1.0f;
     recordRasterPass(commands, frame, passes.shadowPass, shadowFramebuffer, passes.shadow, passes.sceneLayout,
                      shadowMap.extent, {&farthest, 1});
-    recordRasterPass(commands, frame, passes.gbufferPass, current->framebuffer, passes.gbuffer, passes.sceneLayout,
-                     current->lit.extent, clear);
+    recordRasterPass(commands, frame, passes.gbufferPass, current->framebuffer, passes.gbuffer,
+                     passes.sceneLayout, current->lit.extent, clear);
     if (!std::exchange(current->used, true))
         for (const Objects::Image& written : {current->lit, current->indirect, current->composed})
-            host::recordTransition(commands, written.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            host::recordTransition(commands, written.image, VK_IMAGE_LAYOUT_UNDEFINED,
+                                   VK_IMAGE_LAYOUT_GENERAL);
     // [rebound barriers]
     // Before: lit, indirect and composed are about to be written by compute shaders; the frame before may still be read
     // from them, by compute shaders, the presenting fragment shader or a copy. Layouts stay GENERAL.
-    constexpr VkPipelineStageFlags readers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+    constexpr VkPipelineStageFlags readers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                             VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                                              VK_PIPELINE_STAGE_TRANSFER_BIT;
     recordBarrier(commands, readers, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                   VK_ACCESS_SHADER_WRITE_BIT);

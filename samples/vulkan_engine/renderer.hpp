@@ -15,19 +15,20 @@ namespace rebound::engine {
 struct Targets {
     explicit Targets(const host::VulkanContext& context) : objects(context) {}
     Objects objects;
-    Objects::Image depth, normal, albedo, emission, motion; // depth: reversed; motion: what temporal techniques will read
-    Objects::Image lit;                                     // emission + albedo * E / pi
-    Objects::Image indirect, composed;                      // written by Rebound
+    Objects::Image depth, normal, albedo, emission,
+        motion;                        // depth: reversed; motion: what temporal techniques will read
+    Objects::Image lit;                // emission + albedo * E / pi
+    Objects::Image indirect, composed; // written by Rebound
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     VkDescriptorSet lightSet = VK_NULL_HANDLE;
-    bool used = false;                                      // until then, images have no layout
+    bool used = false; // until then, images have no layout
 };
 
 class Renderer {
 public:
     // The context outlives it; not the scene.
-    static Result<std::unique_ptr<Renderer>> create(const host::VulkanContext&, const lab::Scene&, std::string preset,
-                                                    vulkan::MemoryAllocator = {});
+    static Result<std::unique_ptr<Renderer>> create(const host::VulkanContext&, const lab::Scene&,
+                                                    std::string preset, vulkan::MemoryAllocator = {});
 
     // Before the first frame, and whenever the size, or the kind of the camera, changes.
     Result<> resize(Extent2D, const lab::CameraView&);
@@ -49,8 +50,8 @@ private:
     Result<> createOnce(const lab::Scene&);
     void makeTargets(Targets&, Extent2D);
     void writeFrame(int frame, const lab::CameraView&, const Camera&);
-    void recordRasterPass(VkCommandBuffer, int frame, VkRenderPass, VkFramebuffer, VkPipeline, VkPipelineLayout, Extent2D,
-                          std::span<const VkClearValue>) const;
+    void recordRasterPass(VkCommandBuffer, int frame, VkRenderPass, VkFramebuffer, VkPipeline,
+                          VkPipelineLayout, Extent2D, std::span<const VkClearValue>) const;
     void recordLightPass(VkCommandBuffer, int frame) const;
     ScreenIndirectFrame<vulkan::Image> indirectFrame(const Camera&) const;
 

@@ -11,9 +11,14 @@ namespace {
 
 // One colour attachment that is shown.
 VkRenderPass makePresentPass(Objects& objects, VkFormat format) {
-    const VkAttachmentDescription attachment{0, format, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                             VK_ATTACHMENT_STORE_OP_STORE, VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                             VK_ATTACHMENT_STORE_OP_DONT_CARE, VK_IMAGE_LAYOUT_UNDEFINED,
+    const VkAttachmentDescription attachment{0,
+                                             format,
+                                             VK_SAMPLE_COUNT_1_BIT,
+                                             VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                             VK_ATTACHMENT_STORE_OP_STORE,
+                                             VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                             VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                             VK_IMAGE_LAYOUT_UNDEFINED,
                                              VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
     const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
@@ -21,7 +26,8 @@ VkRenderPass makePresentPass(Objects& objects, VkFormat format) {
     subpass.pColorAttachments = &reference;
     // The layout changes once the image is available: that semaphore is waited for at this stage.
     constexpr VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkSubpassDependency dependency{VK_SUBPASS_EXTERNAL, 0, stage, stage, 0, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0};
+    const VkSubpassDependency dependency{
+        VK_SUBPASS_EXTERNAL, 0, stage, stage, 0, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0};
     auto info = structure<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
     info.attachmentCount = 1;
     info.pAttachments = &attachment;
@@ -34,7 +40,8 @@ VkRenderPass makePresentPass(Objects& objects, VkFormat format) {
 
 } // namespace
 
-Result<std::unique_ptr<Swapchain>> Swapchain::create(const host::VulkanContext& context, VkSurfaceKHR surface) {
+Result<std::unique_ptr<Swapchain>> Swapchain::create(const host::VulkanContext& context,
+                                                     VkSurfaceKHR surface) {
     std::unique_ptr<Swapchain> swapchain(new Swapchain(context, surface));
     if (auto made = swapchain->createOnce(); !made) return made.error();
     return swapchain;
@@ -49,7 +56,8 @@ Result<> Swapchain::createOnce() {
     VkBool32 presents = VK_FALSE;
     vkGetPhysicalDeviceSurfaceSupportKHR(context.physicalDevice(), context.queueFamily(), surface, &presents);
     if (!presents)
-        return Error{ErrorCode::unsupported, "--window: " + context.deviceName() + " cannot show pictures in this window"};
+        return Error{ErrorCode::unsupported,
+                     "--window: " + context.deviceName() + " cannot show pictures in this window"};
     uint32_t count = 0;
     vkGetPhysicalDeviceSurfaceFormatsKHR(context.physicalDevice(), surface, &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
@@ -61,28 +69,34 @@ Result<> Swapchain::createOnce() {
         return Error{ErrorCode::unsupported, "--window: the window has no format of 8 bits in sRGB"};
     format = *found;
     pass = makePresentPass(objects, format.format);
-    sampler = objects.sampler(VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    sampler = objects.sampler(VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                              VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     const VkDescriptorSetLayout setLayout = objects.setLayout({sampled}, VK_SHADER_STAGE_FRAGMENT_BIT);
     const VkDescriptorPool pool = objects.descriptorPool(framesInFlight, {{sampled, framesInFlight}});
     for (VkDescriptorSet& set : sets) set = objects.descriptorSet(pool, setLayout);
     layout = objects.pipelineLayout({setLayout}, VK_SHADER_STAGE_FRAGMENT_BIT, sizeof(float));
-    pipeline = makePipeline(objects, {present_vert, present_frag, layout, pass, 1, VK_COMPARE_OP_ALWAYS, false});
+    pipeline =
+        makePipeline(objects, {present_vert, present_frag, layout, pass, 1, VK_COMPARE_OP_ALWAYS, false});
     return objects.status();
 }
 
 Result<> Swapchain::resize(Extent2D wanted) {
     VkSurfaceCapabilitiesKHR can;
-    if (auto asked = host::check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context.physicalDevice(), surface, &can),
-                                 "asking for the window's size");
+    if (auto asked =
+            host::check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(context.physicalDevice(), surface, &can),
+                        "asking for the window's size");
         !asked)
         return asked;
-    const auto within = [](int side, uint32_t least, uint32_t most) { return int(std::clamp(uint32_t(side), least, most)); };
+    const auto within = [](int side, uint32_t least, uint32_t most) {
+        return int(std::clamp(uint32_t(side), least, most));
+    };
     size = {within(wanted.width, can.minImageExtent.width, can.maxImageExtent.width),
             within(wanted.height, can.minImageExtent.height, can.maxImageExtent.height)};
     auto info = structure<VkSwapchainCreateInfoKHR>(VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR);
     info.surface = surface;
-    info.minImageCount = can.maxImageCount > 0 ? std::min(can.minImageCount + 1, can.maxImageCount) : can.minImageCount + 1;
+    info.minImageCount =
+        can.maxImageCount > 0 ? std::min(can.minImageCount + 1, can.maxImageCount) : can.minImageCount + 1;
     info.imageFormat = format.format;
     info.imageColorSpace = format.colorSpace;
     info.imageExtent = {uint32_t(size.width), uint32_t(size.height)};
@@ -94,7 +108,8 @@ Result<> Swapchain::resize(Extent2D wanted) {
     info.clipped = VK_TRUE;
     info.oldSwapchain = chain;
     VkSwapchainKHR next = VK_NULL_HANDLE;
-    auto made = host::check(vkCreateSwapchainKHR(context.device(), &info, nullptr, &next), "creating a swapchain");
+    auto made =
+        host::check(vkCreateSwapchainKHR(context.device(), &info, nullptr, &next), "creating a swapchain");
     if (!made) return made;
     vkDeviceWaitIdle(context.device());
     sized = std::make_unique<Objects>(context);
@@ -116,16 +131,19 @@ Result<> Swapchain::makeFramebuffers() {
         viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
         viewInfo.format = format.format;
         viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        const VkImageView view = sized->make(vkCreateImageView, vkDestroyImageView, viewInfo, "creating an image view");
-        framebuffers.push_back(makeFramebuffer(*sized, pass, {Objects::Image{image, view, format.format, size}}));
+        const VkImageView view =
+            sized->make(vkCreateImageView, vkDestroyImageView, viewInfo, "creating an image view");
+        framebuffers.push_back(
+            makeFramebuffer(*sized, pass, {Objects::Image{image, view, format.format, size}}));
         const auto semaphoreInfo = structure<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
-        semaphores.push_back(sized->make(vkCreateSemaphore, vkDestroySemaphore, semaphoreInfo, "creating a semaphore"));
+        semaphores.push_back(
+            sized->make(vkCreateSemaphore, vkDestroySemaphore, semaphoreInfo, "creating a semaphore"));
     }
     return sized->status();
 }
 
-void Swapchain::recordPresent(VkCommandBuffer commands, int frame, uint32_t image, const Objects::Image& composed,
-                              float exposure) const {
+void Swapchain::recordPresent(VkCommandBuffer commands, int frame, uint32_t image,
+                              const Objects::Image& composed, float exposure) const {
     const VkDescriptorSet set = sets[frame];
     writeImage(context.device(), set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sampler, composed.view,
                VK_IMAGE_LAYOUT_GENERAL);
@@ -146,10 +164,12 @@ void Swapchain::recordPresent(VkCommandBuffer commands, int frame, uint32_t imag
 
 Result<std::optional<uint32_t>> Swapchain::acquire(VkSemaphore available) const {
     uint32_t image = 0;
-    const VkResult result = vkAcquireNextImageKHR(context.device(), chain, UINT64_MAX, available, VK_NULL_HANDLE, &image);
+    const VkResult result =
+        vkAcquireNextImageKHR(context.device(), chain, UINT64_MAX, available, VK_NULL_HANDLE, &image);
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::optional<uint32_t>();
     if (result != VK_SUBOPTIMAL_KHR)
-        if (auto acquired = host::check(result, "acquiring an image of the window"); !acquired) return acquired.error();
+        if (auto acquired = host::check(result, "acquiring an image of the window"); !acquired)
+            return acquired.error();
     return std::optional(image);
 }
 

@@ -21,7 +21,8 @@ public:
 
     // Shows composed, in layout GENERAL and readable by fragment shaders, through the lab's tone curve. The frame's number
     // is that of Renderer::record().
-    void recordPresent(VkCommandBuffer, int frame, uint32_t image, const Objects::Image& composed, float exposure) const;
+    void recordPresent(VkCommandBuffer, int frame, uint32_t image, const Objects::Image& composed,
+                       float exposure) const;
 
     // The next image, or none where the swapchain has to be made anew. `available` is signalled once it may be drawn to.
     Result<std::optional<uint32_t>> acquire(VkSemaphore available) const;

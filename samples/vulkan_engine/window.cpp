@@ -8,8 +8,8 @@
 #include "lab/images/image_files.hpp"
 
 #define GLFW_INCLUDE_NONE
-#include <vulkan/vulkan.h>
 #include <GLFW/glfw3.h>
+#include <vulkan/vulkan.h>
 
 namespace rebound::engine {
 namespace {
@@ -23,7 +23,8 @@ struct Surface {
 };
 
 // Renders one frame aside, for an exposure that stays.
-Result<float> exposureOf(const host::VulkanContext& context, Renderer& renderer, const lab::CameraView& view) {
+Result<float> exposureOf(const host::VulkanContext& context, Renderer& renderer,
+                         const lab::CameraView& view) {
     auto done = context.run([&](VkCommandBuffer commands) { return renderer.record(commands, 0, view); });
     if (!done) return done.error();
     auto composed = renderer.read(renderer.targets().composed, 3);
@@ -97,9 +98,12 @@ Result<> Window::show(const Options& o, const host::VulkanContext& context, cons
             (*loop)->abandon();
             continue;
         }
-        if (auto recorded = (*renderer)->record(*commands, (*loop)->frame(), view); !recorded) return recorded;
-        (*swapchain)->recordPresent(*commands, (*loop)->frame(), **image, (*renderer)->targets().composed, *exposure);
-        if (auto done = (*loop)->submit((*loop)->available(), (*swapchain)->drawn(**image)); !done) return done;
+        if (auto recorded = (*renderer)->record(*commands, (*loop)->frame(), view); !recorded)
+            return recorded;
+        (*swapchain)
+            ->recordPresent(*commands, (*loop)->frame(), **image, (*renderer)->targets().composed, *exposure);
+        if (auto done = (*loop)->submit((*loop)->available(), (*swapchain)->drawn(**image)); !done)
+            return done;
         const auto presented = (*swapchain)->present(**image);
         if (!presented) return presented.error();
         current = *presented;

@@ -48,11 +48,9 @@ std::vector<NamedFrame> referenceFrames() {
 lab::Image changed(lab::Image normal, const std::function<glm::vec3(glm::vec3)>& change) {
     for (size_t i = 0; i < normal.data.size(); i += 3) {
         float* n = &normal.data[i];
-        if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f)
-            continue;
+        if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f) continue;
         const glm::vec3 v = change({n[0], n[1], n[2]});
-        for (int k = 0; k < 3; ++k)
-            n[k] = v[k];
+        for (int k = 0; k < 3; ++k) n[k] = v[k];
     }
     return normal;
 }
@@ -87,8 +85,7 @@ std::vector<InputFinding> check(const lab::Frame& frame, const lab::Image& radia
     inputs.normal = imageOf(normal);
     inputs.albedo = imageOf(frame.albedo);
     inputs.radiance = imageOf(radiance);
-    if (settings.emission)
-        inputs.emission = imageOf(frame.emission);
+    if (settings.emission) inputs.emission = imageOf(frame.emission);
     inputs.statistics = imageOf(statistics);
     take(program.record(take(inputCheckInputs(settings, inputs))));
     InputStatistics values{};
@@ -98,8 +95,7 @@ std::vector<InputFinding> check(const lab::Frame& frame, const lab::Image& radia
 
 std::string sentences(const std::vector<InputFinding>& findings) {
     std::string text;
-    for (const InputFinding& f : findings)
-        text += std::string(name(f.problem)) + ": " + f.sentence + "\n";
+    for (const InputFinding& f : findings) text += std::string(name(f.problem)) + ": " + f.sentence + "\n";
     return text;
 }
 

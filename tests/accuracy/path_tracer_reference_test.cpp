@@ -108,16 +108,17 @@ TEST_CASE("path-traced light agrees with an independent renderer") {
         MESSAGE("skipped: REBOUND_SHARED names no folder with reference/limits.json");
         return;
     }
-    std::printf("mean over the reference's, difference of 4x4 blocks over its mean\n%-22s %14s %14s %14s %8s\n", "view",
-                "direct", "1 bounce", "8 bounces", "noise");
+    std::printf(
+        "mean over the reference's, difference of 4x4 blocks over its mean\n%-22s %14s %14s %14s %8s\n",
+        "view", "direct", "1 bounce", "8 bounces", "noise");
     for (const ReferenceView& view : views) {
         CAPTURE(view.name);
         const std::string scene = view.name.substr(0, view.name.find('/'));
         const lab::Scene loaded = take(lab::loadScene((folder / "scenes" / scene / "scene.gltf").string()));
         const lab::Image theirs = take(lab::readExr(folder / "reference" / view.name / "indirect_8.exr"));
         const lab::Image mask = comparablePixels(view.frame, theirs);
-        const lab::PathTracedLight light = take(
-            lab::tracePaths(loaded, view.frame.camera, {.extent = mask.extent(), .bounces = 8, .samples = 32}));
+        const lab::PathTracedLight light = take(lab::tracePaths(
+            loaded, view.frame.camera, {.extent = mask.extent(), .bounces = 8, .samples = 32}));
         const Agreement direct = agreementOf(light.direct, view.frame.direct, mask);
         const Agreement one = agreementOf(light.firstBounce, view.truth, mask);
         const Agreement eight = agreementOf(light.indirect, theirs, mask);

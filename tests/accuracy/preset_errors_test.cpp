@@ -42,11 +42,12 @@ std::vector<ReferenceView> builtInViews() {
     for (const char* name : {"builtin:cornell", "builtin:atrium"}) {
         const lab::Scene scene = take(lab::loadScene(name));
         for (const lab::CameraView& camera : scene.cameras) {
-            lab::PathTracedLight light =
-                take(lab::cachedReference(scene, camera, {.extent = extent, .bounces = 1, .samples = 128}, cache));
+            lab::PathTracedLight light = take(
+                lab::cachedReference(scene, camera, {.extent = extent, .bounces = 1, .samples = 128}, cache));
             ReferenceView view{std::string(name) + "/" + camera.name,
                                take(lab::renderFrame(scene, camera, {.extent = extent, .lightSamples = 64})),
-                               std::move(light.firstBounce), {}};
+                               std::move(light.firstBounce),
+                               {}};
             view.frame.emission = {};
             views.push_back(std::move(view));
         }
@@ -59,7 +60,8 @@ Json measured(const ReferenceView& view) {
     for (std::string_view preset : screenIndirectPresetNames()) {
         const auto settings = take(screenIndirectPreset(preset, view.frame.depth.extent()));
         const ImageError error = errorOf(gather(view, settings), view);
-        errors[std::string(preset)] = {std::round(error.relativeRmse * 1e4) / 1e4, std::round(error.mean * 1e4) / 1e4};
+        errors[std::string(preset)] = {std::round(error.relativeRmse * 1e4) / 1e4,
+                                       std::round(error.mean * 1e4) / 1e4};
     }
     return errors;
 }
@@ -78,7 +80,8 @@ TEST_CASE("presets are as accurate as stated, no less and no more") {
     const char* shared = std::getenv("REBOUND_SHARED");
     std::vector<ReferenceView> views = builtInViews();
     std::vector<ReferenceView> published = loadReferenceViews(shared ? shared : "");
-    if (published.empty()) MESSAGE("published views are skipped: REBOUND_SHARED names no folder with reference/limits.json");
+    if (published.empty())
+        MESSAGE("published views are skipped: REBOUND_SHARED names no folder with reference/limits.json");
     std::move(published.begin(), published.end(), std::back_inserter(views));
     Json all;
     for (const ReferenceView& view : views) {

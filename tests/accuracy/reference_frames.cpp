@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reference_frames.hpp"
 
-#include "lab/scenes/camera_matrices.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/scenes/camera_matrices.hpp"
 #include "rebound/cpu/device.hpp"
 
 #include <nlohmann/json.hpp>
@@ -29,7 +29,8 @@ std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& share
     const nlohmann::ordered_json limits = nlohmann::ordered_json::parse(file);
     for (const auto& [name, presets] : limits.items()) {
         const std::filesystem::path folder = shared / "reference" / name;
-        ReferenceView view{name, take(lab::readFrame(folder)), take(lab::readExr(folder / "indirect_1.exr")), {}};
+        ReferenceView view{
+            name, take(lab::readFrame(folder)), take(lab::readExr(folder / "indirect_1.exr")), {}};
         view.bruteForce = {presets.at("brute").at(0).get<double>(), presets.at("brute").at(1).get<double>()};
         // Light straight from an emitter is in direct.exr, so the references count no emission of senders' own.
         view.frame.emission = {};

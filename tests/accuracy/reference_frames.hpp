@@ -18,10 +18,11 @@ struct ImageError {
 };
 
 struct ReferenceView {
-    std::string name;        // scene/camera
+    std::string name; // scene/camera
     lab::Frame frame;
-    lab::Image truth;        // E / pi of light that met exactly one other surface
-    ImageError bruteForce;        // of the sum over every pixel of the start resolution, as published with the references
+    lab::Image truth; // E / pi of light that met exactly one other surface
+    ImageError
+        bruteForce; // of the sum over every pixel of the start resolution, as published with the references
 };
 
 // Those below <shared>/reference that limits.json lists, in its order; empty where it is not there.

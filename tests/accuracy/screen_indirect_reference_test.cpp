@@ -31,7 +31,8 @@ TEST_CASE("presets come near to brute force on the reference frames") {
         return;
     }
     std::printf("relRMSE over brute force's, and mean over brute force's\n%-22s", "view");
-    for (std::string_view preset : screenIndirectPresetNames()) std::printf(" %14s", std::string(preset).c_str());
+    for (std::string_view preset : screenIndirectPresetNames())
+        std::printf(" %14s", std::string(preset).c_str());
     for (const ReferenceView& view : views) {
         std::printf("\n%-22s", view.name.c_str());
         for (std::string_view preset : screenIndirectPresetNames()) {

@@ -23,9 +23,9 @@ public:
     }
 
     // Light that is a fifth too bright, in 1, 2 and 3 ms.
-    Result<Trial> measure(const View& view, const Setting& setting, ChartBackend&, const lab::Progress&) override {
-        if (int(measured.size()) == failsAfter)
-            return Error{ErrorCode::deviceLost, "the device was lost"};
+    Result<Trial> measure(const View& view, const Setting& setting, ChartBackend&,
+                          const lab::Progress&) override {
+        if (int(measured.size()) == failsAfter) return Error{ErrorCode::deviceLost, "the device was lost"};
         measured.push_back(view.label + " " + setting.name);
         lab::Image light(size, 3, 2.4f);
         light.data[0] = firstValue;
@@ -41,8 +41,9 @@ private:
 };
 
 inline Sweep madeSweep() {
-    return *parseSweep(R"({"techniques": {"screen_indirect": [{"samples": [16, 32]}]}, "size": "8x4", "frames": 3})",
-                       "sweep");
+    return *parseSweep(
+        R"({"techniques": {"screen_indirect": [{"samples": [16, 32]}]}, "size": "8x4", "frames": 3})",
+        "sweep");
 }
 
 inline std::vector<View> madeViews() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/charts/fronts.hpp"
 #include "lab/charts/pareto.hpp"
-#include "made_results.hpp"
 #include "lab/measure/measurement.hpp"
+#include "made_results.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,8 +25,7 @@ Indices frontByBruteForce(const std::vector<SpeedAndError>& points) {
             isBeaten = isBeaten ||
                        (other.milliseconds <= points[i].milliseconds && other.error <= points[i].error &&
                         (other.milliseconds != points[i].milliseconds || other.error != points[i].error));
-        if (!isBeaten)
-            front.push_back(i);
+        if (!isBeaten) front.push_back(i);
     }
     return front;
 }
@@ -36,7 +35,7 @@ TEST_CASE("a front holds what nothing beats, from the fastest") {
     CHECK(paretoFront({{1, 1}}) == Indices{0});
     CHECK(paretoFront({{3, 1}, {1, 3}, {2, 2}}) == Indices{1, 2, 0});
     CHECK(paretoFront({{1, 1}, {2, 2}, {1, 2}, {2, 1}}) == Indices{0});
-    CHECK(paretoFront({{1, 1}, {1, 1}}) == Indices{0, 1});       // equal ones do not beat each other
+    CHECK(paretoFront({{1, 1}, {1, 1}}) == Indices{0, 1});         // equal ones do not beat each other
     CHECK(paretoFront({{1, 2}, {2, 2}, {2, 1}}) == Indices{0, 2}); // slower and no better
     const double infinity = std::numeric_limits<double>::infinity();
     CHECK(paretoFront({{1, NAN}, {NAN, 0}, {infinity, 0}, {2, 2}}) == Indices{3});

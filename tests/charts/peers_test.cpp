@@ -31,9 +31,7 @@ void writePeer(const fs::path& folder, const nlohmann::json& json, const lab::Im
     REQUIRE(lab::writeExr(folder / "indirect.exr", light, lab::ExrPrecision::full));
 }
 
-lab::Image lightOf(Extent2D size) {
-    return {size, 3, 2.2f};
-}
+lab::Image lightOf(Extent2D size) { return {size, 3, 2.2f}; }
 
 TEST_CASE("peers become points of the view that they name, held against the same truth") {
     const lab::TemporaryFolder folder;
@@ -47,7 +45,8 @@ TEST_CASE("peers become points of the view that they name, held against the same
     for (int run = 0; run < 2; ++run) { // the second takes all other points from the first
         auto store = PointStore::open(folder / "out", REBOUND_VERSION, false);
         REQUIRE(store);
-        const auto results = runChart({sweep, views, backends, *peers, "a machine", "half"}, workshop, *store);
+        const auto results =
+            runChart({sweep, views, backends, *peers, "a machine", "half"}, workshop, *store);
         REQUIRE_MESSAGE(results, results.error().message);
         REQUIRE(results->points.size() == 5);
         const Point& point = results->points.back();
@@ -108,8 +107,7 @@ TEST_CASE("descriptions with missing, unknown or impossible values are refused i
         REQUIRE(!peers);
         INFO("it says: ", peers.error().message);
         CHECK(peers.error().message.find("peer.json") != std::string::npos);
-        for (const char* text : bad.says)
-            CHECK(peers.error().message.find(text) != std::string::npos);
+        for (const char* text : bad.says) CHECK(peers.error().message.find(text) != std::string::npos);
     }
 }
 

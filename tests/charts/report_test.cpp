@@ -13,9 +13,7 @@
 namespace rebound::charts {
 namespace {
 
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("fields of CSV stand in quotes where they must, with quotes doubled") {
     CHECK(csvField("plain text") == "plain text");
@@ -31,14 +29,10 @@ std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
     bool isQuoted = false;
     for (size_t i = 0; i < text.size(); ++i) {
         const bool isDouble = text.compare(i, 2, "\"\"") == 0 && isQuoted;
-        if (text[i] == '"' && !isDouble)
-            isQuoted = !isQuoted;
-        else if (!isQuoted && text[i] == ',')
-            rows.back().push_back("");
-        else if (!isQuoted && text.compare(i, 2, "\r\n") == 0)
-            rows.push_back({""}), ++i;
-        else
-            rows.back().back() += text[i], i += isDouble;
+        if (text[i] == '"' && !isDouble) isQuoted = !isQuoted;
+        else if (!isQuoted && text[i] == ',') rows.back().push_back("");
+        else if (!isQuoted && text.compare(i, 2, "\r\n") == 0) rows.push_back({""}), ++i;
+        else rows.back().back() += text[i], i += isDouble;
     }
     rows.pop_back();
     return rows;
@@ -49,8 +43,7 @@ TEST_CASE("the CSV has a line for each point and a field for each heading") {
     results.points[0].name = "fast, \"really\"";
     const auto rows = parseCsv(resultsCsv(results));
     REQUIRE(rows.size() == 11);
-    for (const auto& row : rows)
-        CHECK(row.size() == rows[0].size());
+    for (const auto& row : rows) CHECK(row.size() == rows[0].size());
     const auto field = [&](size_t row, const char* heading) {
         const auto column = std::find(rows[0].begin(), rows[0].end(), heading);
         REQUIRE(column != rows[0].end());
@@ -74,16 +67,20 @@ TEST_CASE("a point is the same after it was written and read") {
 }
 
 TEST_CASE("base64 is that of RFC 4648, section 10") {
-    const std::pair<const char*, const char*> all[] = {{"", ""},         {"f", "Zg=="},        {"fo", "Zm8="},
-                                                       {"foo", "Zm9v"},  {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="},
+    const std::pair<const char*, const char*> all[] = {{"", ""},
+                                                       {"f", "Zg=="},
+                                                       {"fo", "Zm8="},
+                                                       {"foo", "Zm9v"},
+                                                       {"foob", "Zm9vYg=="},
+                                                       {"fooba", "Zm9vYmE="},
                                                        {"foobar", "Zm9vYmFy"}};
-    for (const auto& [bytes, text] : all)
-        CHECK(base64(bytes) == text);
+    for (const auto& [bytes, text] : all) CHECK(base64(bytes) == text);
     CHECK(base64(std::string("\xff\xfe\x00", 3)) == "//4A");
 }
 
 TEST_CASE("no text within the page's data can end its element, and all of it is read back") {
-    const Json json = {{"name", "</script><script>alert(1)</script><!-- \"quoted\" \\ \xc3\xa9 \xe2\x80\xa8"}};
+    const Json json = {
+        {"name", "</script><script>alert(1)</script><!-- \"quoted\" \\ \xc3\xa9 \xe2\x80\xa8"}};
     const std::string text = jsonForScript(json);
     CHECK(!holds(text, "<"));
     CHECK(nlohmann::json::parse(text) == nlohmann::json(json));
@@ -98,7 +95,8 @@ TEST_CASE("the page needs nothing from elsewhere, and holds each distinct pictur
     results.points[3].name = "@STYLE@ </script>";
     const auto page = resultsPage(results, folder.path());
     REQUIRE_MESSAGE(page, page.error().message);
-    for (const char* mark : {"@RESULTS@", "@LIBRARY@", "@MODEL@", "@CHART@", "@SCRIPT@", "src=\"http", "href=\"http"})
+    for (const char* mark :
+         {"@RESULTS@", "@LIBRARY@", "@MODEL@", "@CHART@", "@SCRIPT@", "src=\"http", "href=\"http"})
         CHECK(!holds(*page, mark));
     for (const char* bytes : {"view", "result", "error"}) {
         const std::string text = "\"" + base64(bytes) + "\"";
@@ -113,8 +111,9 @@ TEST_CASE("the page needs nothing from elsewhere, and holds each distinct pictur
 
 TEST_CASE("the summary has the fronts, and what is never worth its time") {
     const std::string text = summaryText(madeResults());
-    for (const char* part : {"### atrium nave, cpu (avx2 on 2 threads)", "### cornell front", "geometric means",
-                             "one other surface", "256 paths a pixel", "Never worth their time"})
+    for (const char* part :
+         {"### atrium nave, cpu (avx2 on 2 threads)", "### cornell front", "geometric means",
+          "one other surface", "256 paths a pixel", "Never worth their time"})
         CHECK(holds(text, part));
     const std::string never = text.substr(text.find("Never worth"));
     CHECK(holds(never, "middling"));
@@ -140,7 +139,8 @@ TEST_CASE("gnuplot draws each chart as SVG and PNG, or says why not") {
     const auto gnuplot = findGnuplot();
     REQUIRE_MESSAGE(gnuplot, gnuplot.error().message);
     const lab::TemporaryFolder folder;
-    lab::writeText(folder / "script", plotScript(chartsOf(madeResults()), {"subtitle", "x", "y"}, folder.path()));
+    lab::writeText(folder / "script",
+                   plotScript(chartsOf(madeResults()), {"subtitle", "x", "y"}, folder.path()));
     const auto drawn = runGnuplot(*gnuplot, folder / "script");
     REQUIRE_MESSAGE(drawn, drawn.error().message);
     for (const char* name : {"chart", "chart-atrium-nave", "chart-cornell-front"}) {
@@ -166,10 +166,10 @@ TEST_CASE("without gnuplot in PATH there is one sentence") {
 }
 
 TEST_CASE("scales end at 1, 2 or 5 times a power of ten") {
-    const std::pair<double, double> all[] = {{1.0, 1.0},   {1.01, 2.0}, {2.0, 2.0},  {3.0, 5.0},    {5.1, 10.0},
-                                             {0.03, 0.05}, {0.2, 0.2},  {700, 1000}, {1e-6, 1e-6}, {0.0, 1.0}};
-    for (const auto& [value, rounded] : all)
-        CHECK(roundUp(value) == doctest::Approx(rounded));
+    const std::pair<double, double> all[] = {{1.0, 1.0},   {1.01, 2.0},  {2.0, 2.0}, {3.0, 5.0},
+                                             {5.1, 10.0},  {0.03, 0.05}, {0.2, 0.2}, {700, 1000},
+                                             {1e-6, 1e-6}, {0.0, 1.0}};
+    for (const auto& [value, rounded] : all) CHECK(roundUp(value) == doctest::Approx(rounded));
 }
 
 TEST_CASE("names of files hold letters, digits and dashes") {

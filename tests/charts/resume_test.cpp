@@ -25,8 +25,7 @@ struct Chart {
 
     Result<Results> run(const fs::path& folder, MadeWorkshop& workshop) {
         auto store = PointStore::open(folder, version, fresh);
-        if (!store)
-            return store.error();
+        if (!store) return store.error();
         return runChart({sweep, views, backends, peers, machine, "half"}, workshop, *store);
     }
     // How many measurements another run makes.
@@ -58,7 +57,8 @@ TEST_CASE("each setting is measured once in each view, and its figures are those
     CHECK(point.metrics.pixels == 32);
     CHECK(results->views[1].label == "box side");
     CHECK(results->views[0].errorScale == 2.0);
-    for (const char* name : {"sheet-box-front.png", "view-box-front-key-of-front.png", "view-box-side-key-of-side-direct.png"})
+    for (const char* name :
+         {"sheet-box-front.png", "view-box-front-key-of-front.png", "view-box-side-key-of-side-direct.png"})
         CHECK(fs::is_regular_file(folder / "pictures" / name));
     CHECK(fs::is_regular_file(folder / "points" / (point.picture + ".exr")));
 }
@@ -94,7 +94,8 @@ TEST_CASE("a point is measured again when anything that it depends on is another
     CHECK(chart.measurementsOf(folder.path()) == 4);
     SUBCASE("a further setting") {
         chart.sweep = *parseSweep(
-            R"({"techniques": {"screen_indirect": [{"samples": [16, 32, 64]}]}, "size": "8x4", "frames": 3})", "sweep");
+            R"({"techniques": {"screen_indirect": [{"samples": [16, 32, 64]}]}, "size": "8x4", "frames": 3})",
+            "sweep");
         CHECK(chart.measurementsOf(folder.path()) == 2);
     }
     SUBCASE("what a view shows") {
@@ -146,8 +147,9 @@ TEST_CASE("results from another version, and files that are none, are refused in
         CHECK(chart.run(folder.path(), workshop));
     }
     SUBCASE("not a point") {
-        for (const char* text : {"", "{", "{}", R"({"format": 1, "version": ")" REBOUND_VERSION R"(", "key": 1, "point": {}})",
-                                 R"({"format": "one"})"}) {
+        for (const char* text :
+             {"", "{", "{}", R"({"format": 1, "version": ")" REBOUND_VERSION R"(", "key": 1, "point": {}})",
+              R"({"format": "one"})"}) {
             lab::writeText(folder / "points" / "broken.json", text);
             MadeWorkshop workshop(chart.sweep.size);
             const auto results = chart.run(folder.path(), workshop);
@@ -187,8 +189,8 @@ TEST_CASE("progress names each step and goes from 0 to 1") {
         rises = rises && share >= last && share <= 1.0;
         last = share;
     };
-    REQUIRE(runChart({chart.sweep, chart.views, chart.backends, chart.peers, "a machine", "half", progress}, workshop,
-                     *store));
+    REQUIRE(runChart({chart.sweep, chart.views, chart.backends, chart.peers, "a machine", "half", progress},
+                     workshop, *store));
     CHECK(rises);
     CHECK(steps == std::vector<std::string>{"box front: the reference", "box front, quarter-16, cpu",
                                             "box front, quarter-32, cpu", "box side: the reference",

@@ -12,8 +12,7 @@ namespace {
 
 std::set<std::string> namesOf(const Sweep& sweep) {
     std::set<std::string> names;
-    for (const Setting& setting : sweep.settings)
-        names.insert(setting.name);
+    for (const Setting& setting : sweep.settings) names.insert(setting.name);
     return names;
 }
 
@@ -22,7 +21,8 @@ TEST_CASE("arrays mean every combination, and what comes to the same is taken on
         {"preset": "quarter-64"},
         {"preset": "half-64", "levels": 5, "samples": [16, 32, 64], "start": ["half", "quarter"]},
         {"preset": "half-64-5"}
-    ]}})", "sweep");
+    ]}})",
+                                  "sweep");
     REQUIRE_MESSAGE(sweep, sweep.error().message);
     CHECK(namesOf(*sweep) == std::set<std::string>{"quarter-64", "half-16-5", "half-32-5", "half-64-5",
                                                    "quarter-16-5", "quarter-32-5", "quarter-64-5"});
@@ -151,16 +151,15 @@ TEST_CASE("unknown keys and impossible values are refused with file, key, value 
         INFO("it says: ", message);
         CHECK(message.starts_with("'bad.json': "));
         CHECK(message.find('\n') == std::string::npos);
-        for (const char* text : bad.says)
-            CHECK(message.find(text) != std::string::npos);
+        for (const char* text : bad.says) CHECK(message.find(text) != std::string::npos);
     }
 }
 
 TEST_CASE("a sweep that would never end is refused") {
     std::string samples = "[4";
-    for (int i = 5; i <= 256; ++i)
-        samples += "," + std::to_string(i);
-    const auto sweep = parseSweep(withSetting("\"samples\": " + samples + "], \"radius\": " + samples + "]"), "bad.json");
+    for (int i = 5; i <= 256; ++i) samples += "," + std::to_string(i);
+    const auto sweep =
+        parseSweep(withSetting("\"samples\": " + samples + "], \"radius\": " + samples + "]"), "bad.json");
     REQUIRE(!sweep);
     CHECK(sweep.error().message.find("10000 combinations") != std::string::npos);
 }

@@ -15,9 +15,7 @@ constexpr const char* tinySweep = R"({
     "scenes": [{"scene": "builtin:cornell", "cameras": ["front"]}],
     "size": "64x36", "frames": 3, "warm_up": 1, "reference": {"samples": 8, "error": 0.5}})";
 
-void writeSweep(const lab::TemporaryFolder& folder) {
-    lab::writeText(folder / "sweep.json", tinySweep);
-}
+void writeSweep(const lab::TemporaryFolder& folder) { lab::writeText(folder / "sweep.json", tinySweep); }
 
 nlohmann::json resultsIn(const fs::path& folder) {
     return nlohmann::json::parse(lab::readText(folder / "results.json"));
@@ -37,7 +35,8 @@ TEST_CASE("chart writes charts, a page and results, and takes finished points up
     REQUIRE_MESSAGE(first.exitCode == 0, first.errors);
     for (const char* text : {"Pareto", "cornell front", "quarter-16", "one other surface", "index.html"})
         CHECK(first.output.find(text) != std::string::npos);
-    for (const char* name : {"index.html", "results.csv", "summary.md", "chart-cornell-front.svg", "chart-cornell-front.png"})
+    for (const char* name :
+         {"index.html", "results.csv", "summary.md", "chart-cornell-front.svg", "chart-cornell-front.png"})
         CHECK(fs::file_size(folder / "charts" / name) > 100);
     CHECK(!fs::exists(folder / "charts" / "chart.svg")); // one view has no mean over all
     const nlohmann::json results = resultsIn(folder / "charts");
@@ -64,8 +63,9 @@ TEST_CASE("chart puts results from elsewhere beside its own") {
     const lab::TemporaryFolder folder;
     writeSweep(folder);
     fs::create_directories(folder / "peers" / "rival");
-    lab::writeText(folder / "peers" / "rival" / "peer.json",
-                   R"({"format": 1, "name": "rival", "technique": "nothing at all", "scene": "builtin:cornell",
+    lab::writeText(
+        folder / "peers" / "rival" / "peer.json",
+        R"({"format": 1, "name": "rival", "technique": "nothing at all", "scene": "builtin:cornell",
                        "camera": "front", "size": "64x36", "time_ms": {"median": 0.5}, "machine": "elsewhere"})");
     REQUIRE(lab::writeExr(folder / "peers" / "rival" / "indirect.exr", lab::Image({64, 36}, 3)));
     const Outcome outcome = run("chart --sweep sweep.json --peers peers --out charts", folder.path());
@@ -87,7 +87,8 @@ TEST_CASE("chart refuses bad input in one sentence, and leaves nothing behind") 
     const size_t before = folder.count();
     checkRefused(run("chart --sweep missing.json", folder.path()), {"missing.json"});
     checkRefused(run("chart --sweep unknown.json", folder.path()), {"unknown.json", "sizes", "frames"});
-    checkRefused(run("chart --sweep impossible.json", folder.path()), {"impossible.json", "levels is 9", "1 to 8"});
+    checkRefused(run("chart --sweep impossible.json", folder.path()),
+                 {"impossible.json", "levels is 9", "1 to 8"});
     checkRefused(run("chart --size 4", folder.path()), {"--size", "4"});
     checkRefused(run("chart --backends metal", folder.path()), {"--backends", "metal", "cpu"});
     checkRefused(run("chart --backends cpu --precision double", folder.path()), {"--precision", "double"});
@@ -104,8 +105,10 @@ TEST_CASE("chart refuses results of another version, and says what to do") {
     const lab::TemporaryFolder folder;
     writeSweep(folder);
     fs::create_directories(folder / "charts" / "points");
-    lab::writeText(folder / "charts" / "points" / "old.json", R"({"format": 1, "version": "0.0.1", "key": {}, "point": {}})");
-    checkRefused(run("chart --sweep sweep.json --out charts", folder.path()), {"old.json", "0.0.1", "--fresh"});
+    lab::writeText(folder / "charts" / "points" / "old.json",
+                   R"({"format": 1, "version": "0.0.1", "key": {}, "point": {}})");
+    checkRefused(run("chart --sweep sweep.json --out charts", folder.path()),
+                 {"old.json", "0.0.1", "--fresh"});
 }
 
 TEST_CASE("without gnuplot, chart says so before it measures") {

@@ -144,8 +144,7 @@ TEST_CASE("--out writes a picture of the errors") {
 TEST_CASE("an alpha channel is dropped, one channel is compared with one") {
     const Pictures pictures;
     lab::Image withAlpha({20, 12}, 4, 2.0f);
-    for (size_t i = 3; i < withAlpha.data.size(); i += 4)
-        withAlpha.data[i] = 0.5f;
+    for (size_t i = 3; i < withAlpha.data.size(); i += 4) withAlpha.data[i] = 0.5f;
     pictures.write("alpha.exr", withAlpha);
     CHECK(pictures.compareToJson("alpha.exr truth.exr").at("rmse") == 0.0);
     pictures.write("grey.exr", lab::Image({20, 12}, 1, 2.0f));

@@ -15,8 +15,7 @@ constexpr Extent2D extent{12, 8};
 
 lab::Image constant(int channels, std::array<float, 3> value) {
     lab::Image image(extent, channels);
-    for (size_t i = 0; i < image.data.size(); ++i)
-        image.data[i] = value[i % size_t(channels)];
+    for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = value[i % size_t(channels)];
     return image;
 }
 

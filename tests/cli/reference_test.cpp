@@ -2,9 +2,9 @@
 // render --technique reference
 #include "command_line.hpp"
 
-#include "lab/rays/frame.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/light/path_tracer.hpp"
+#include "lab/rays/frame.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
-#include "lab/rays/frame.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/rays/frame.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <nlohmann/json.hpp>

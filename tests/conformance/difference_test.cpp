@@ -67,7 +67,8 @@ TEST_CASE("a number against no number is beyond any tolerance") {
 }
 
 TEST_CASE("another choice of four texels is a decision; another area is not") {
-    const Resource surface = resource("surface 1", Format::rgba32f, 4), light = resource("light 1", Format::rgba16f, 4);
+    const Resource surface = resource("surface 1", Format::rgba32f, 4),
+                   light = resource("light 1", Format::rgba16f, 4);
     lab::Image s(extent, 4), l(extent, 4, 0.5f);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
@@ -79,7 +80,8 @@ TEST_CASE("another choice of four texels is a decision; another area is not") {
     otherPlace.at(2, 2)[1] = 0.4f;
     otherPlace.at(2, 2)[2] = 0.3f;
     otherLight.at(2, 2)[3] = 0.6f; // follows from the other depth
-    const auto decided = compare("screen_indirect/reduce", {{&surface, &s, &otherPlace}, {&light, &l, &otherLight}}, 1.0f);
+    const auto decided =
+        compare("screen_indirect/reduce", {{&surface, &s, &otherPlace}, {&light, &l, &otherLight}}, 1.0f);
     for (const Difference& d : decided) {
         CHECK(d.decisions == 1);
         CHECK(d.beyond == 0);

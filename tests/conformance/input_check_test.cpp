@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The input check finds the same on every backend of this machine.
-#include "lab/scenes/camera_matrices.hpp"
 #include "lab/rays/frame.hpp"
+#include "lab/runner/runner.hpp"
+#include "lab/scenes/camera_matrices.hpp"
 #include "lab/scenes/scene_files.hpp"
 #include "rebound/techniques/input_check.hpp"
-#include "lab/runner/runner.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,8 @@
 
 #include "pictures.hpp"
 
-#include "lab/rays/frame.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/rays/frame.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <string>
@@ -32,7 +32,8 @@ inline void checkAgreement(const std::string& what, lab::Image image, const lab:
 }
 
 // The frame's indirect light and composition are the CPU device's on its G-buffer.
-inline void checkIndirectLight(const ScreenIndirectSettings& settings, const ScreenIndirectFrame<lab::Image>& frame) {
+inline void checkIndirectLight(const ScreenIndirectSettings& settings,
+                               const ScreenIndirectFrame<lab::Image>& frame) {
     const Light cpu = onCpu(settings, frame);
     CHECK(mean(frame.indirect) > 0.02 * mean(frame.lit)); // there is light to compare
     checkAgreement("indirect", frame.indirect, cpu.indirect);

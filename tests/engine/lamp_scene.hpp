@@ -17,7 +17,8 @@ namespace rebound::engine {
 inline lab::Mesh squarePlane(int material, float half, float height) {
     lab::Mesh m;
     m.material = material;
-    m.positions = {{-half, height, -half}, {half, height, -half}, {half, height, half}, {-half, height, half}};
+    m.positions = {
+        {-half, height, -half}, {half, height, -half}, {half, height, half}, {-half, height, half}};
     m.normals.assign(4, {0, 1, 0});
     m.indices = {0, 1, 2, 0, 2, 3};
     return m;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lab/images/image.hpp"
-#include "rebound/techniques/screen_indirect.hpp"
 #include "lab/runner/runner.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
 
 #include <doctest/doctest.h>
 

@@ -15,7 +15,8 @@ inline void checkPicture(const TestedProgram& program) {
         program.run("builtin:cornell --size 120x80 --frames 3 --validation --out picture.png", folder.path());
     REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.errors);
     CHECK(outcome.errors.empty());
-    for (const char* part : {"cornell, 120 x 80, preset quarter-64", "Rebound, in all", "written to picture.png"})
+    for (const char* part :
+         {"cornell, 120 x 80, preset quarter-64", "Rebound, in all", "written to picture.png"})
         CHECK(outcome.output.find(part) != std::string::npos);
     CHECK(lab::readText(folder / "picture.png").starts_with("\x89PNG"));
     CHECK(folder.count() == 1);
@@ -23,7 +24,8 @@ inline void checkPicture(const TestedProgram& program) {
 
 inline void checkWindow(const TestedProgram& program) {
     const lab::TemporaryFolder folder;
-    if (program.run("--help", folder.path()).output.find("--window") == std::string::npos || !std::getenv("DISPLAY")) {
+    if (program.run("--help", folder.path()).output.find("--window") == std::string::npos ||
+        !std::getenv("DISPLAY")) {
         MESSAGE("not run: the build has no GLFW, or DISPLAY names no display");
         return;
     }
@@ -34,7 +36,8 @@ inline void checkWindow(const TestedProgram& program) {
 }
 
 // Refused in one sentence with exit code 2, and no file.
-inline void checkRefused(const TestedProgram& program, const std::string& arguments, const std::string& part) {
+inline void checkRefused(const TestedProgram& program, const std::string& arguments,
+                         const std::string& part) {
     const lab::TemporaryFolder folder;
     INFO(arguments);
     program.checkRefused(program.run(arguments, folder.path()), {part});
@@ -52,8 +55,10 @@ inline void checkRefusals(const TestedProgram& program) {
     checkRefused(program, "builtin:none", "builtin:none");
     checkRefused(program, "missing.gltf", "missing.gltf");
     checkRefused(program, "--no-such-option", "--no-such-option");
-    checkRefused(program, "builtin:cornell --size 8x8 --device \"no such GPU\"", "whose name holds \"no such GPU\"");
-    checkRefused(program, "builtin:cornell --size 8x8 --out missing/folder/picture.png", "missing/folder/picture.png");
+    checkRefused(program, "builtin:cornell --size 8x8 --device \"no such GPU\"",
+                 "whose name holds \"no such GPU\"");
+    checkRefused(program, "builtin:cornell --size 8x8 --out missing/folder/picture.png",
+                 "missing/folder/picture.png");
 }
 
 } // namespace rebound::engine

@@ -37,7 +37,8 @@ TEST_CASE("area lights and emissive triangles become samples of the same power")
     for (const lab::Mesh& mesh : glowing.meshes)
         for (size_t i = 0; mesh.material == 1 && i < mesh.indices.size(); i += 3) {
             const glm::vec3 a = mesh.positions[mesh.indices[i]];
-            sum += glm::length(glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a));
+            sum += glm::length(
+                glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a));
         }
     CHECK(power == doctest::Approx(double(sum))); // twice the half areas
     glowing.emissiveMaterialsLight = false;

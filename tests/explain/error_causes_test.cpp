@@ -14,8 +14,7 @@ TEST_CASE("the causes add up to the whole error") {
     for (const Cause& cause : explanation.causes) {
         bias += cause.bias;
         part += cause.part;
-        for (size_t i = 0; i < sum.data.size(); ++i)
-            sum.data[i] += cause.difference.data[i];
+        for (size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += cause.difference.data[i];
     }
     // Differences of floats, summed in doubles.
     CHECK(bias == doctest::Approx(explanation.whole.bias).epsilon(1e-5));

@@ -51,8 +51,7 @@ inline Explanation explained(const lab::Scene& scene, const lab::CameraView& cam
 
 inline const Cause& causeNamed(const Explanation& explanation, const std::string& name) {
     for (const Cause& cause : explanation.causes)
-        if (cause.name == name)
-            return cause;
+        if (cause.name == name) return cause;
     FAIL("no cause is named " << name);
     return explanation.whole;
 }

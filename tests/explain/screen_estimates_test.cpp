@@ -18,8 +18,7 @@ ScreenEstimates estimated(const lab::Scene& scene, const lab::CameraView& camera
 
 double meanOf(const lab::Image& image) {
     double sum = 0.0;
-    for (const float value : image.data)
-        sum += double(value);
+    for (const float value : image.data) sum += double(value);
     return sum / double(image.data.size());
 }
 

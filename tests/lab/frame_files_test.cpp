@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/camera_json.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/scenes/camera_json.hpp"
 
 #include "frame_test_scene.hpp"
 #include "temporary_folder.hpp"
@@ -123,7 +123,8 @@ TEST_CASE("what is wrong with a stored frame is named") {
         writeText(folder / "meta.json", bad);
         CHECK(names(folder, "meta.json"));
     }
-    writeText(folder / "meta.json", R"({"camera": )" + std::string(100000, '[') + std::string(100000, ']') + "}");
+    writeText(folder / "meta.json",
+              R"({"camera": )" + std::string(100000, '[') + std::string(100000, ']') + "}");
     CHECK(names(folder, "nested deeper"));
     CHECK_FALSE(readFrame(folder / "nowhere"));
     CHECK_FALSE(readFrame(folder / "depth.exr"));

@@ -52,8 +52,7 @@ TEST_CASE("normals are of unit length and turned towards the camera from either 
     glm::vec3 normal;
     Scene scene = tiltedPlane(normal);
     for (const float side : {1.0f, -1.0f}) {
-        for (glm::vec3& n : scene.meshes[0].normals)
-            n = side * normal;
+        for (glm::vec3& n : scene.meshes[0].normals) n = side * normal;
         const Frame frame = rendered(scene, obliqueCamera(), {.extent = {8, 8}, .threads = 1});
         const glm::vec3 seen = colorAt(frame.normal, 3, 4);
         const bool faces =
@@ -68,8 +67,7 @@ TEST_CASE("vertex normals are interpolated") {
     const glm::vec3 left = glm::normalize(glm::vec3(-1, 1, 0));
     const glm::vec3 right = glm::normalize(glm::vec3(1, 1, 0));
     Mesh& mesh = scene.meshes[0];
-    for (size_t i = 0; i < 4; ++i)
-        mesh.normals[i] = mesh.positions[i].x < 0 ? left : right;
+    for (size_t i = 0; i < 4; ++i) mesh.normals[i] = mesh.positions[i].x < 0 ? left : right;
     const Frame frame = rendered(scene, downCamera(), {.extent = {9, 9}, .threads = 1});
     // A linear blend across x: at the centre it is straight up, at x it leans by x / 1 m.
     CHECK(glm::length(colorAt(frame.normal, 4, 4) - glm::vec3(0, 1, 0)) < 1e-5f);

@@ -27,9 +27,7 @@ Light lightOf(LightType type, glm::vec3 intensity) {
 }
 
 // Irradiance on the floor seen by pixel (x, y), per unit of the red channel.
-double irradiance(const Frame& frame, int x, int y) {
-    return pi * double(*frame.direct.at(x, y));
-}
+double irradiance(const Frame& frame, int x, int y) { return pi * double(*frame.direct.at(x, y)); }
 
 } // namespace
 
@@ -140,8 +138,7 @@ TEST_CASE("an emissive triangle lights from both sides, by Lambert's formula") {
     const std::array<glm::dvec3, 3> corners{triangle.positions[0], triangle.positions[1],
                                             triangle.positions[2]};
     for (const bool flipped : {false, true}) {
-        if (flipped)
-            std::swap(scene.meshes[1].indices[1], scene.meshes[1].indices[2]);
+        if (flipped) std::swap(scene.meshes[1].indices[1], scene.meshes[1].indices[2]);
         const Frame frame = rendered(scene, camera, options);
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 5; ++x)
@@ -186,8 +183,7 @@ TEST_CASE("a textured emitter lights as its texels do, and only through what is 
     scene.materials.push_back(lamp);
     // The left column glows, the right one does not.
     scene.textures.push_back({"half", 64, 1, Wrap::clamp, Wrap::clamp, std::vector<uint8_t>(64 * 4, 255)});
-    for (size_t x = 32; x < 64; ++x)
-        std::fill_n(&scene.textures[0].rgba[x * 4], 3, uint8_t{0});
+    for (size_t x = 32; x < 64; ++x) std::fill_n(&scene.textures[0].rgba[x * 4], 3, uint8_t{0});
     addQuad(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 1);
     CameraView camera = downCamera(0.9f, 0.1f);
     const FrameOptions options{.extent = {1, 1}, .lightSamples = manySamples, .threads = 1};
@@ -201,8 +197,7 @@ TEST_CASE("a textured emitter lights as its texels do, and only through what is 
     scene.materials[1].emissionTexture = none;
     scene.materials[1].baseColorTexture = 0;
     scene.materials[1].alphaMasked = true;
-    for (size_t x = 32; x < 64; ++x)
-        scene.textures[0].rgba[x * 4 + 3] = 0;
+    for (size_t x = 32; x < 64; ++x) scene.textures[0].rgba[x * 4 + 3] = 0;
     CHECK(irradiance(rendered(scene, camera, options), 0, 0) == doctest::Approx(expected).epsilon(edged));
 }
 
@@ -262,6 +257,5 @@ TEST_CASE("a closed box sees neither environment nor sun") {
     camera.target = {0, 0, -1};
     camera.verticalFieldOfView = 2.0f;
     const Frame frame = rendered(scene, camera, {.extent = {64, 64}, .lightSamples = 64, .threads = 1});
-    for (const float value : frame.direct.data)
-        REQUIRE(value == 0.0f); // edges included
+    for (const float value : frame.direct.data) REQUIRE(value == 0.0f); // edges included
 }

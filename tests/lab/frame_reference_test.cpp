@@ -46,8 +46,7 @@ double agreement(const Image& image, const Image& reference, float absolute, flo
 
 double mean(const Image& image) {
     double sum = 0.0;
-    for (const float value : image.data)
-        sum += double(value);
+    for (const float value : image.data) sum += double(value);
     return sum / double(image.data.size());
 }
 
@@ -78,8 +77,7 @@ void checkSurfaces(const Frame& frame, const Frame& reference) {
 void checkDirect(const Frame& frame, const Frame& reference, bool hardLight) {
     const auto average = float(mean(reference.direct));
     // Edges of shadows, and pixels that see another surface.
-    if (hardLight)
-        CHECK(agreement(frame.direct, reference.direct, 0.001f * average, 0.01f) > 0.99);
+    if (hardLight) CHECK(agreement(frame.direct, reference.direct, 0.001f * average, 0.01f) > 0.99);
     // Both sides are noisy in single pixels; means over 20 x 20 of them much less.
     CHECK(agreement(blockMeans(frame.direct, 20), blockMeans(reference.direct, 20), 0.03f * average, 0.05f) >
           0.97);

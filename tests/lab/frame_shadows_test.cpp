@@ -21,8 +21,7 @@ Scene latticeScene(float factor, float cutoff) {
     Scene scene = floorScene();
     Texture lattice{"lattice", 8, 8, Wrap::clamp, Wrap::clamp, std::vector<uint8_t>(8 * 8 * 4, 255)};
     for (size_t y = 0; y < 8; ++y)
-        for (size_t x = 0; x < 8; ++x)
-            lattice.rgba[(y * 8 + x) * 4 + 3] = (x + y) % 2 == 0 ? 255 : 0;
+        for (size_t x = 0; x < 8; ++x) lattice.rgba[(y * 8 + x) * 4 + 3] = (x + y) % 2 == 0 ? 255 : 0;
     scene.textures.push_back(lattice);
     Material mask;
     mask.baseColor = {1, 0, 0, factor};
@@ -140,8 +139,7 @@ TEST_CASE("unmasked materials have no holes") {
     Scene scene = latticeScene(0.1f, 0.5f);
     scene.materials[1].alphaMasked = false;
     const Frame frame = rendered(scene, viewOfTexelCentres(), {.extent = {8, 8}, .threads = 1});
-    for (const float depth : frame.depth.data)
-        CHECK(depth == doctest::Approx(1.0));
+    for (const float depth : frame.depth.data) CHECK(depth == doctest::Approx(1.0));
 }
 
 TEST_CASE("surfaces do not shadow themselves, whatever their size, place and tilt") {
@@ -191,8 +189,7 @@ TEST_CASE("contact shadows begin a thousandth of the scene's size away, at every
         camera.nearPlane = 1e-6f * scale;
         camera.farPlane = scale;
         const Frame frame = rendered(scene, camera, {.extent = {16, 16}, .threads = 1});
-        for (const float value : frame.direct.data)
-            CHECK(value == 0.0f);
+        for (const float value : frame.direct.data) CHECK(value == 0.0f);
         CHECK(*frame.depth.at(3, 3) > 0.0f);
     }
 }

@@ -30,9 +30,7 @@ struct Damage {
     const char* expected; // part of the message
 };
 
-void addNodes(GltfDraft& draft, const Json& nodes) {
-    draft.root["nodes"] = nodes;
-}
+void addNodes(GltfDraft& draft, const Json& nodes) { draft.root["nodes"] = nodes; }
 
 const Damage damages[] = {
     {"no asset", [](GltfDraft& d) { d.root.erase("asset"); }, "'asset'"},
@@ -303,8 +301,7 @@ TEST_CASE("a chain of a hundred thousand nodes is no recursion") {
     GltfDraft draft = triangleDraft();
     constexpr int length = 100000;
     Json nodes = Json::array();
-    for (int i = 0; i < length; ++i)
-        nodes.push_back({{"children", {i + 1}}});
+    for (int i = 0; i < length; ++i) nodes.push_back({{"children", {i + 1}}});
     nodes.push_back({{"mesh", 0}, {"translation", {1, 0, 0}}});
     draft.root["nodes"] = nodes;
     const Result<Scene> scene = loadGltf(draft.save(folder));
@@ -343,8 +340,7 @@ TEST_CASE("a binary file whose chunk lengths lie is refused") {
         for (const uint8_t difference : {uint8_t(4), uint8_t(8), uint8_t(0xff)}) {
             Bytes damaged = whole;
             damaged[at] = static_cast<uint8_t>(damaged[at] + difference);
-            if (at == 20 + jsonLength && difference == 0xff)
-                damaged[at + 3] = 0xff;
+            if (at == 20 + jsonLength && difference == 0xff) damaged[at + 3] = 0xff;
             CAPTURE(at);
             CAPTURE(int(difference));
             writeBytes(folder / "a.glb", damaged.data(), damaged.size());
@@ -359,13 +355,10 @@ TEST_CASE("bytes changed at random never do worse than an error") {
     int refused = 0;
     for (int round = 0; round < 500; ++round) {
         Bytes damaged = whole;
-        for (int i = 0; i < 3; ++i)
-            damaged[random() % damaged.size()] = static_cast<uint8_t>(random());
+        for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<uint8_t>(random());
         writeBytes(folder / "a.glb", damaged.data(), damaged.size());
-        if (const Result<Scene> scene = loadGltf(folder / "a.glb"); scene)
-            CHECK(validate(*scene));
-        else
-            ++refused;
+        if (const Result<Scene> scene = loadGltf(folder / "a.glb"); scene) CHECK(validate(*scene));
+        else ++refused;
     }
     // Nearly all of the file is JSON and indices, where few changes are harmless.
     CHECK(refused > 250);

@@ -26,18 +26,12 @@ inline void writeBytes(const std::filesystem::path& file, const void* data, size
 
 template <class T>
 constexpr int componentTypeOf() {
-    if constexpr (std::is_same_v<T, int8_t>)
-        return 5120;
-    else if constexpr (std::is_same_v<T, uint8_t>)
-        return 5121;
-    else if constexpr (std::is_same_v<T, int16_t>)
-        return 5122;
-    else if constexpr (std::is_same_v<T, uint16_t>)
-        return 5123;
-    else if constexpr (std::is_same_v<T, uint32_t>)
-        return 5125;
-    else
-        return 5126;
+    if constexpr (std::is_same_v<T, int8_t>) return 5120;
+    else if constexpr (std::is_same_v<T, uint8_t>) return 5121;
+    else if constexpr (std::is_same_v<T, int16_t>) return 5122;
+    else if constexpr (std::is_same_v<T, uint16_t>) return 5123;
+    else if constexpr (std::is_same_v<T, uint32_t>) return 5125;
+    else return 5126;
 }
 
 // A glTF file under construction: its JSON, to be changed at will, and one buffer.
@@ -52,8 +46,7 @@ struct GltfDraft {
 
     template <class T>
     int addView(const std::vector<T>& values) {
-        while (buffer.size() % 4 != 0)
-            buffer.push_back(0);
+        while (buffer.size() % 4 != 0) buffer.push_back(0);
         const size_t offset = buffer.size(), size = values.size() * sizeof(T);
         buffer.resize(offset + size);
         std::memcpy(buffer.data() + offset, values.data(), size);
@@ -88,8 +81,7 @@ struct GltfDraft {
         padded.resize((padded.size() + 3) / 4 * 4, 0);
         Bytes file = {'g', 'l', 'T', 'F'};
         const auto append = [&](size_t value) {
-            for (int i = 0; i < 4; ++i)
-                file.push_back(static_cast<uint8_t>(value >> (8 * i)));
+            for (int i = 0; i < 4; ++i) file.push_back(static_cast<uint8_t>(value >> (8 * i)));
         };
         append(2);
         append(12 + 8 + text.size() + 8 + padded.size());
@@ -120,8 +112,7 @@ inline GltfDraft triangleDraft() {
 // significant byte first.
 inline Bytes makePng(uint32_t width, uint32_t height, int bits, const Bytes& samples) {
     const auto bigEndian = [](Bytes& to, uint32_t value) {
-        for (int shift = 24; shift >= 0; shift -= 8)
-            to.push_back(static_cast<uint8_t>(value >> shift));
+        for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<uint8_t>(value >> shift));
     };
     const auto chunk = [&](Bytes& to, const char* type, const Bytes& content) {
         bigEndian(to, static_cast<uint32_t>(content.size()));
@@ -130,8 +121,7 @@ inline Bytes makePng(uint32_t width, uint32_t height, int bits, const Bytes& sam
         uint32_t crc = 0xffffffffu;
         for (const uint8_t byte : checked) {
             crc ^= byte;
-            for (int i = 0; i < 8; ++i)
-                crc = (crc >> 1) ^ ((crc & 1u) ? 0xedb88320u : 0u);
+            for (int i = 0; i < 8; ++i) crc = (crc >> 1) ^ ((crc & 1u) ? 0xedb88320u : 0u);
         }
         to.insert(to.end(), checked.begin(), checked.end());
         bigEndian(to, ~crc);

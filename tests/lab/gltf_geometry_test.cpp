@@ -19,9 +19,7 @@ Scene load(const GltfDraft& draft) {
     return std::move(*scene);
 }
 
-Mesh loadMesh(const GltfDraft& draft) {
-    return load(draft).meshes.at(0);
-}
+Mesh loadMesh(const GltfDraft& draft) { return load(draft).meshes.at(0); }
 
 // Single rounding errors of coordinates up to about 10.
 constexpr float rounding = 2e-6f;
@@ -158,8 +156,7 @@ TEST_CASE("strips and fans keep their winding, and points and lines are skipped"
         const Scene scene = load(draft);
         REQUIRE(scene.meshes.size() == 1);
         CHECK(scene.triangleCount() == 2);
-        for (const glm::vec3& normal : scene.meshes[0].normals)
-            checkNear(normal, {0, 0, 1});
+        for (const glm::vec3& normal : scene.meshes[0].normals) checkNear(normal, {0, 0, 1});
     }
 }
 
@@ -172,8 +169,7 @@ void checkPositions(const std::vector<T>& values, bool normalized, const std::ve
     draft.add("nodes", {{"mesh", 0}});
     CAPTURE(componentTypeOf<T>());
     const Mesh mesh = loadMesh(draft);
-    for (size_t i = 0; i < 3; ++i)
-        checkNear(mesh.positions.at(i), expected[i]);
+    for (size_t i = 0; i < 3; ++i) checkNear(mesh.positions.at(i), expected[i]);
 }
 
 TEST_CASE("every component type, as it is and normalised") {
@@ -220,10 +216,8 @@ TEST_CASE("sparse accessors replace elements of a view, or of zeros") {
             {"count", 2},
             {"indices", {{"bufferView", places}, {"componentType", 5123}}},
             {"values", {{"bufferView", values}}}};
-        if (!backed)
-            draft.root["accessors"][0].erase("bufferView");
-        else
-            draft.buffer[3] = 0x41; // the first x is 8
+        if (!backed) draft.root["accessors"][0].erase("bufferView");
+        else draft.buffer[3] = 0x41; // the first x is 8
         const Mesh mesh = loadMesh(draft);
         CHECK(mesh.positions == std::vector<glm::vec3>{{backed ? 8 : 0, 0, 0}, {5, 0, 0}, {0, 6, 0}});
     }

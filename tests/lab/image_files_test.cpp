@@ -20,15 +20,13 @@ constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 Image rampImage(Extent2D extent, int channels) {
     Image image(extent, channels);
-    for (size_t i = 0; i < image.data.size(); ++i)
-        image.data[i] = float(i) * 0.37f - 5.0f;
+    for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = float(i) * 0.37f - 5.0f;
     return image;
 }
 
 // Equal bits; NaN payloads are free.
 bool same(const Image& a, const Image& b) {
-    if (a.extent() != b.extent() || a.channels != b.channels)
-        return false;
+    if (a.extent() != b.extent() || a.channels != b.channels) return false;
     for (size_t i = 0; i < a.data.size(); ++i)
         if (!(std::isnan(a.data[i]) && std::isnan(b.data[i])) &&
             std::bit_cast<uint32_t>(a.data[i]) != std::bit_cast<uint32_t>(b.data[i]))
@@ -96,8 +94,7 @@ TEST_CASE("a data window anywhere is mapped to the origin") {
     uint64_t place = 0;
     for (size_t at = window; at + 8 <= bytes.size() && place != at + 8; ++at) {
         std::memcpy(&place, bytes.data() + at, sizeof(place));
-        if (place == at + 8)
-            patch(bytes, at + 8, top);
+        if (place == at + 8) patch(bytes, at + 8, top);
     }
     writeText(folder / "b.exr", bytes);
     const auto read = readExr(folder / "b.exr");

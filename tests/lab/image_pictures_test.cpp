@@ -58,8 +58,7 @@ TEST_CASE("values that are not finite show as magenta") {
 
 TEST_CASE("automatic exposure maps the 90th percentile to 0.8") {
     Image image({104, 1}, 1);
-    for (int i = 0; i < 100; ++i)
-        image.data[size_t(i)] = float(i + 1);
+    for (int i = 0; i < 100; ++i) image.data[size_t(i)] = float(i + 1);
     image.data[100] = std::nanf("");
     image.data[101] = std::numeric_limits<float>::infinity();
     image.data[102] = 0.0f;
@@ -75,8 +74,7 @@ TEST_CASE("automatic exposure maps the 90th percentile to 0.8") {
 TEST_CASE("PNG files hold the picture") {
     const TemporaryFolder folder;
     Picture picture{5, 3, {}};
-    for (int i = 0; i < 5 * 3 * 3; ++i)
-        picture.rgb.push_back(static_cast<unsigned char>(i * 5));
+    for (int i = 0; i < 5 * 3 * 3; ++i) picture.rgb.push_back(static_cast<unsigned char>(i * 5));
     REQUIRE(writePng(folder / "a.png", picture));
     CHECK(folder.count() == 1);
 
@@ -116,8 +114,7 @@ TEST_CASE("a contact sheet shows every picture under its caption") {
     REQUIRE(sheet.rgb.size() == size_t(sheet.width) * size_t(sheet.height) * 3);
     int found = 0;
     for (int top = 0; top + 20 <= sheet.height; ++top)
-        for (int left = 0; left + 60 <= sheet.width; ++left)
-            found += shows(sheet, left, top, red);
+        for (int left = 0; left + 60 <= sheet.width; ++left) found += shows(sheet, left, top, red);
     CHECK(found == 2);
     const auto other = contactSheet({{"rod", red}, {"small", small}, {"third", red}}, 2);
     CHECK(other.rgb.size() == sheet.rgb.size());

@@ -28,8 +28,7 @@ PathTracer tracerOf(const PathTracerOptions& options) {
 }
 
 void finish(PathTracer& tracer) {
-    while (!tracer.isDone())
-        tracer.addPass();
+    while (!tracer.isDone()) tracer.addPass();
 }
 
 void checkSame(const PathTracedLight& a, const PathTracedLight& b) {
@@ -123,8 +122,7 @@ TEST_CASE("the standard error is as large as the spread of independent runs") {
     const auto second = traced(cornell(), cornell().cameras[0], options);
     const double expected = std::hypot(luminanceRms(first.indirect, second.indirect) / std::sqrt(2.0), 0.0);
     double stated = 0.0;
-    for (const float error : first.standardError.data)
-        stated += double(error) * double(error);
+    for (const float error : first.standardError.data) stated += double(error) * double(error);
     stated = std::sqrt(stated / double(first.standardError.data.size()));
     // 1728 pixels with 7 degrees of freedom each tell a variance to 2 %; a few bright pixels dominate it.
     CHECK(stated == doctest::Approx(expected).epsilon(0.15));

@@ -20,14 +20,11 @@ Scene boxScene(float albedo, float emission = 0.0f) {
     return scene;
 }
 
-CameraView wallCamera() {
-    return patchCamera({0, 0, -1}, {0, 0, -1}, 1.0f, 2.0f);
-}
+CameraView wallCamera() { return patchCamera({0, 0, -1}, {0, 0, -1}, 1.0f, 2.0f); }
 
 double geometricSum(double ratio, int first, int last) {
     double sum = 0.0;
-    for (int k = first; k <= last; ++k)
-        sum += std::pow(ratio, k);
+    for (int k = first; k <= last; ++k) sum += std::pow(ratio, k);
     return sum;
 }
 
@@ -126,8 +123,7 @@ TEST_CASE("one bounce from a disc: the form factor of a point over its centre") 
     for (int i = 0; i < sides; ++i) {
         const double angle = 2.0 * pi * i / sides;
         disc.positions.emplace_back(float(radius * std::sin(angle)), 0.0f, float(radius * std::cos(angle)));
-        for (const int corner : {0, 1 + i, 1 + (i + 1) % sides})
-            disc.indices.push_back(uint32_t(corner));
+        for (const int corner : {0, 1 + i, 1 + (i + 1) % sides}) disc.indices.push_back(uint32_t(corner));
     }
     disc.normals.assign(disc.positions.size(), glm::vec3(0, 1, 0));
     scene.meshes = {disc};

@@ -18,16 +18,14 @@ inline PathTracedLight traced(const Scene& scene, const CameraView& camera,
 // Over all pixels, of the red channel.
 inline double meanOf(const Image& image) {
     double sum = 0.0;
-    for (size_t i = 0; i < image.data.size(); i += size_t(image.channels))
-        sum += double(image.data[i]);
+    for (size_t i = 0; i < image.data.size(); i += size_t(image.channels)) sum += double(image.data[i]);
     return sum / (double(image.width) * double(image.height));
 }
 
 // Of the mean over all pixels, whose paths are independent.
 inline double standardErrorOfMean(const PathTracedLight& light) {
     double sum = 0.0;
-    for (const float error : light.standardError.data)
-        sum += double(error) * double(error);
+    for (const float error : light.standardError.data) sum += double(error) * double(error);
     return std::sqrt(sum) / double(light.standardError.data.size());
 }
 

@@ -19,9 +19,7 @@
 namespace rebound::lab {
 namespace {
 
-glm::vec3 corner(const Mesh& mesh, size_t i) {
-    return mesh.positions[mesh.indices[i]];
-}
+glm::vec3 corner(const Mesh& mesh, size_t i) { return mesh.positions[mesh.indices[i]]; }
 
 // Each edge of a closed solid is run along as often one way as the other. Places are compared on a grid of 10
 // micrometres, as neighbours compute them in different ways.
@@ -34,8 +32,7 @@ bool isClosed(const Mesh& mesh) {
     std::map<std::pair<Place, Place>, int> balance;
     for (size_t i = 0; i < mesh.indices.size(); ++i) {
         const Place a = place(i), b = place(i % 3 == 2 ? i - 2 : i + 1);
-        if (a != b)
-            balance[std::minmax(a, b)] += a < b ? 1 : -1;
+        if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
     }
     return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
 }
@@ -128,15 +125,13 @@ TEST_CASE("the built-in scenes are valid, lit, and have their cameras") {
         const Result<Scene> scene = loadScene(name);
         REQUIRE_MESSAGE(scene, (scene ? "" : scene.error().message));
         CHECK(!scene->lights.empty());
-        for (const Mesh& mesh : scene->meshes)
-            checkSolid(mesh);
+        for (const Mesh& mesh : scene->meshes) checkSolid(mesh);
     }
     const Scene cornell = makeCornellBox();
     CHECK(cornell.cameras.at(0).name == "front");
     CHECK(cornell.cameras.size() == 2);
     const Scene atrium = makeAtrium();
-    for (const char* camera : {"nave", "arcade", "gallery"})
-        CHECK(findCamera(atrium, camera));
+    for (const char* camera : {"nave", "arcade", "gallery"}) CHECK(findCamera(atrium, camera));
     CHECK(atrium.triangleCount() > 20000);
     CHECK(atrium.triangleCount() < 150000);
 }
@@ -162,8 +157,7 @@ TEST_CASE("the atrium is the same every time") {
         CHECK(a.meshes[i].normals == b.meshes[i].normals);
         CHECK(a.meshes[i].indices == b.meshes[i].indices);
     }
-    for (size_t i = 0; i < a.textures.size(); ++i)
-        CHECK(a.textures[i].rgba == b.textures[i].rgba);
+    for (size_t i = 0; i < a.textures.size(); ++i) CHECK(a.textures[i].rgba == b.textures[i].rgba);
 }
 
 TEST_CASE("textures of stone meet themselves and keep within their two shades") {

@@ -19,9 +19,7 @@ constexpr GlossyModel glossyModels[] = {GlossyModel::phong, GlossyModel::blinnPh
 constexpr float roughnesses[] = {0.25f, 0.5f, 1.0f};
 constexpr float viewAngles[] = {0.0f, 0.6f, 1.3f};
 
-glm::vec3 tilted(float angle) {
-    return {std::sin(angle), 0.0f, std::cos(angle)};
-}
+glm::vec3 tilted(float angle) { return {std::sin(angle), 0.0f, std::cos(angle)}; }
 
 SpecularLobe lobeOf(GlossyModel model, float roughness, float reflectance = 1.0f) {
     Material material;
@@ -124,8 +122,7 @@ TEST_CASE("narrow lobes reflect as a mirror does, by Schlick's term") {
             for (uint32_t i = 0; i < 4096; ++i) {
                 const glm::vec3 light = lobe.sample(up, viewer, sobolPoint(i, 5));
                 far += glm::dot(light, tilted(-angle)) < 0.99f;
-                if (light.z <= 0.0f)
-                    continue;
+                if (light.z <= 0.0f) continue;
                 sum += double(lobe.value(up, viewer, light).x * light.z / lobe.density(up, viewer, light)) /
                        4096;
             }

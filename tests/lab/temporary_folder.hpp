@@ -15,8 +15,7 @@ class TemporaryFolder {
 public:
     TemporaryFolder() {
         std::random_device random;
-        do
-            folder = std::filesystem::temp_directory_path() / ("rebound-test-" + std::to_string(random()));
+        do folder = std::filesystem::temp_directory_path() / ("rebound-test-" + std::to_string(random()));
         while (!std::filesystem::create_directory(folder));
     }
     ~TemporaryFolder() {

@@ -185,8 +185,7 @@ TEST_CASE("a damaged view file is refused with the file and the key, and the sce
 
 TEST_CASE("what is no view file is refused") {
     Scene scene;
-    for (const char* text : {"", "[]", "{", "{\"cameras\": [NaN]}", "\xff"})
-        CHECK(!applyView(text, scene));
+    for (const char* text : {"", "[]", "{", "{\"cameras\": [NaN]}", "\xff"}) CHECK(!applyView(text, scene));
     CHECK(!applyView(R"({"lights": [{"type": "point", "intensity": 1e999}]})", scene));
     // Nested deeper than a stack.
     const Result<> deep = applyView(

@@ -84,8 +84,7 @@ TEST_CASE("without a largest difference it is the 99th percentile, rounded up") 
     const lab::Image truth({200, 1}, 1, 0.0f);
     const lab::Image ramp = imageOf({200, 1}, 1, [](int x, int, int) { return double(x + 1); });
     const lab::Picture picture = shown(ramp, truth);
-    for (const int x : {0, 20, 99, 150, 199})
-        CHECK(at(picture, x, 0) == viridis(double(x + 1) / 200.0));
+    for (const int x : {0, 20, 99, 150, 199}) CHECK(at(picture, x, 0) == viridis(double(x + 1) / 200.0));
     // A single pixel of 200 differs: the percentile is 0, so its own difference counts, 3, which rounds up
     // to 5.
     lab::Image one = truth;
@@ -107,8 +106,7 @@ TEST_CASE("a scale has a handful of labels, the ends among them") {
         const std::vector<double> ticks = ticksUpTo(largest);
         REQUIRE(ticks.size() == expected.size());
         size_t i = 0;
-        for (const double tick : expected)
-            CHECK(ticks[i++] == Approx(tick).epsilon(1e-12));
+        for (const double tick : expected) CHECK(ticks[i++] == Approx(tick).epsilon(1e-12));
     };
     checkTicks(1.0, {0.0, 0.2, 0.4, 0.6, 0.8, 1.0});
     checkTicks(2.0, {0.0, 0.5, 1.0, 1.5, 2.0});
@@ -126,10 +124,8 @@ TEST_CASE("the bar stands at the right, from 0 below to the largest above") {
         for (int x = extent.width; x < picture.width; ++x) {
             int last = -1, first = -1; // rows of the ends
             for (int y = 0; y < picture.height; ++y) {
-                if (at(picture, x, y) == viridis(1.0) && first < 0)
-                    first = y;
-                if (at(picture, x, y) == viridis(0.0))
-                    last = y;
+                if (at(picture, x, y) == viridis(1.0) && first < 0) first = y;
+                if (at(picture, x, y) == viridis(0.0)) last = y;
             }
             barColumns += first >= 0 && last > first;
             for (int y = first; first >= 0 && y < last; ++y)

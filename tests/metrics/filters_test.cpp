@@ -14,9 +14,7 @@ using doctest::Approx;
 
 constexpr double rounding = 1e-12; // a few hundred products of doubles
 
-double sumOf(const Weights& weights) {
-    return std::accumulate(weights.begin(), weights.end(), 0.0);
-}
+double sumOf(const Weights& weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
 
 TEST_CASE("a filter is a correlation whose border goes on") {
     const Plane plane = planeOf(7, 5, [](int x, int y) { return double((3 * x * x + 5 * y + x * y) % 11); });
@@ -36,8 +34,7 @@ TEST_CASE("a filter is a correlation whose border goes on") {
 TEST_CASE("filters wider than the picture work") {
     const Weights weights = gaussianWeights(0.01, 20);
     const Plane constant = filtered(Plane(3, 2, 0.7), weights, weights);
-    for (const double value : constant.values)
-        CHECK(value == Approx(0.7).epsilon(rounding));
+    for (const double value : constant.values) CHECK(value == Approx(0.7).epsilon(rounding));
 }
 
 TEST_CASE("FLIP's contrast filters keep constants, and its features do not see them") {

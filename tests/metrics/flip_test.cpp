@@ -65,8 +65,7 @@ Pair missingPoint() {
 
 TEST_CASE("FLIP is 0 of a picture with itself, and the same both ways") {
     const Pair pair = texture();
-    for (const double value : flipMap(pair.test, pair.test, 67.0).values)
-        CHECK(value == 0.0);
+    for (const double value : flipMap(pair.test, pair.test, 67.0).values) CHECK(value == 0.0);
     CHECK(flipMap(pair.test, pair.truth, 67.0).values == flipMap(pair.truth, pair.test, 67.0).values);
 }
 

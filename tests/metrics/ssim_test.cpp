@@ -18,9 +18,7 @@ constexpr double c2 = 9e-4; // 0.03^2
 constexpr double rounding = 1e-11;
 
 // Of two constants: no variance is left, so that only the first factor remains.
-double ofConstants(double a, double b) {
-    return (2.0 * a * b + c1) / (a * a + b * b + c1);
-}
+double ofConstants(double a, double b) { return (2.0 * a * b + c1) / (a * a + b * b + c1); }
 
 // The definition at one pixel, with a window that is no product of rows.
 double plainSsim(const Plane& a, const Plane& b, int x, int y) {
@@ -71,12 +69,10 @@ TEST_CASE("SSIM is its definition, also at borders") {
 
 TEST_CASE("SSIM is 1 of a picture with itself, the same both ways, and below 0 of its negative") {
     const Plane a = pattern(24, 24, 1), b = pattern(24, 24, 3);
-    for (const double value : ssimMap(a, a).values)
-        CHECK(value == Approx(1.0).epsilon(rounding));
+    for (const double value : ssimMap(a, a).values) CHECK(value == Approx(1.0).epsilon(rounding));
     CHECK(ssimMap(a, b).values == ssimMap(b, a).values);
     const Plane negative = planeOf(24, 24, [&](int x, int y) { return 1.0 - a.row(y)[x]; });
-    for (const double value : ssimMap(a, negative).values)
-        CHECK(value < 0.0);
+    for (const double value : ssimMap(a, negative).values) CHECK(value < 0.0);
 }
 
 TEST_CASE("compareImages takes SSIM of what is displayed") {

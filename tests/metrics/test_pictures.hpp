@@ -24,8 +24,7 @@ lab::Image imageOf(Extent2D extent, int channels, const Value& value) {
     lab::Image image(extent, channels);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x)
-            for (int c = 0; c < channels; ++c)
-                image.at(x, y)[c] = float(value(x, y, c));
+            for (int c = 0; c < channels; ++c) image.at(x, y)[c] = float(value(x, y, c));
     return image;
 }
 
@@ -33,15 +32,13 @@ template <class Value>
 Plane planeOf(int width, int height, const Value& value) {
     Plane plane(width, height);
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            plane.row(y)[x] = value(x, y);
+        for (int x = 0; x < width; ++x) plane.row(y)[x] = value(x, y);
     return plane;
 }
 
 inline double meanOf(const Plane& plane) {
     double sum = 0.0;
-    for (const double value : plane.values)
-        sum += value;
+    for (const double value : plane.values) sum += value;
     return sum / double(plane.values.size());
 }
 

@@ -162,8 +162,7 @@ TEST_CASE("plans that exceed a context's limits") {
 TEST_CASE("shaders that the driver refuses: its words, in one line") {
     Shader broken = *testShaders()[0];
     for (const Shader* s : testShaders())
-        if (s->name == "copy")
-            broken = *s;
+        if (s->name == "copy") broken = *s;
     const std::string wrong = "void main() { this is no GLSL; }\n";
     broken.glsl = wrong;
     inEachContext([&](host::OpenGLContext& context) {

@@ -27,8 +27,7 @@ TEST_CASE("OpenGL: a barrier stands before a pass that reads what an earlier one
         const Command dispatch{0, {3, 1, 1}};
         // The frame before may still read what the first pass writes.
         const std::vector<Command> expected = {{store, {}}, dispatch, {fetch, {}}, dispatch, {host, {}}};
-        for (int run = 0; run < 2; ++run)
-            CHECK(commandsOf(program, frame.inputs()) == expected);
+        for (int run = 0; run < 2; ++run) CHECK(commandsOf(program, frame.inputs()) == expected);
         program.onPass([](int) {});
         CHECK(commandsOf(program, frame.inputs()) ==
               std::vector<Command>{
@@ -70,8 +69,7 @@ TEST_CASE("OpenGL: objects have labels, passes are groups") {
         glPopDebugGroup();
         const auto collect = [](GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text,
                                 const void*) {
-            if (type == GL_DEBUG_TYPE_PUSH_GROUP)
-                groups.emplace_back(text);
+            if (type == GL_DEBUG_TYPE_PUSH_GROUP) groups.emplace_back(text);
         };
         void* user = nullptr;
         void* callback = nullptr;

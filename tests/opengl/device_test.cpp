@@ -72,8 +72,7 @@ TEST_CASE("OpenGL: compiling anew at other sizes leaks nothing, and shares progr
             opengl::Program program = compile(device, indirectPlan({64, 36}));
             const size_t live = FakeOpenGL::live.size();
             CHECK(live > 10);
-            for (int width = 65; width < 80; ++width)
-                program = compile(device, indirectPlan({width, 36}));
+            for (int width = 65; width < 80; ++width) program = compile(device, indirectPlan({width, 36}));
             CHECK(FakeOpenGL::live.size() == live);
 
             const auto programs = [] {
@@ -120,8 +119,7 @@ TEST_CASE("OpenGL: transients are read from within the callback behind each pass
         Picture read;
         program.onPass([&](int pass) {
             passes.push_back(pass);
-            if (pass == 0)
-                read = readBack(*program.transientTexture("source"), {20, 5}, 4);
+            if (pass == 0) read = readBack(*program.transientTexture("source"), {20, 5}, 4);
         });
         REQUIRE(program.record(frame.inputs()));
         CHECK(passes == std::vector<int>{0, 1});
@@ -157,12 +155,10 @@ TEST_CASE("OpenGL: timings of a finished frame where they were asked for, and no
             CHECK(program.timings().empty());
             const CopyFrame frame({500, 400});
             // More frames than have queries of their own, without a word to the GPU in between.
-            for (int run = 0; run < 12; ++run)
-                REQUIRE(program.record(frame.inputs()));
+            for (int run = 0; run < 12; ++run) REQUIRE(program.record(frame.inputs()));
             glFinish();
             REQUIRE(program.timings().size() == (wanted ? 2u : 0u));
-            if (!wanted)
-                continue;
+            if (!wanted) continue;
             CHECK(program.timings()[0].label == "copy");
             CHECK(program.timings()[1].label == "access");
             const auto start = std::chrono::steady_clock::now();

@@ -20,8 +20,7 @@ void checkClose(const Picture& got, const Picture& want, const Tolerance& tolera
     REQUIRE(got.values.size() == want.values.size());
     int wrong = 0, compared = 0;
     for (size_t i = 0; i < want.values.size(); ++i) {
-        if (!std::isfinite(want.values[i]))
-            continue;
+        if (!std::isfinite(want.values[i])) continue;
         ++compared;
         const double apart = std::abs(double(got.values[i]) - double(want.values[i]));
         if (!(apart <= tolerance(i)) && ++wrong == 1)
@@ -71,8 +70,7 @@ TEST_CASE("OpenGL reads images as the CPU does: every mode, inside and outside")
                     // Offsets of a fixed few texels only, on the CPU: see docs/kernel_language.md.
                     const bool few =
                         mode == accessMinified || mode == accessHostMinified || mode == accessMagnified;
-                    if (few && (std::abs(offset.x) > 1 || std::abs(offset.y) > 1))
-                        continue;
+                    if (few && (std::abs(offset.x) > 1 || std::abs(offset.y) > 1)) continue;
                     const bool minified = mode == accessMinified || mode == accessHostMinified;
                     const bool magnified = mode == accessMagnified;
                     const Extent2D grid{minified    ? (source.width + 1) / 2
@@ -145,8 +143,7 @@ TEST_CASE("OpenGL computes as the CPU does: what GLSL leaves to the GPU, within 
 
 TEST_CASE("OpenGL runs features, tables, constants and loops as the CPU does") {
     Picture start({100, 3}, 1);
-    for (size_t i = 0; i < start.values.size(); ++i)
-        start.values[i] = float(i * 37 % 301);
+    for (size_t i = 0; i < start.values.size(); ++i) start.values[i] = float(i * 37 % 301);
     const std::vector<TableEntry> table = {
         {{0, 0, 2, 0}, {0, 1}, 0.5f, 0}, {{0, 0, -1, 0}, {0, 0}, 4.0f, 0}, {{0, 0, 8, 0}, {7, -3}, 0.25f, 0}};
     const LanguageConstants k{{100, 3, 3, 0}, {9.0f, 0.5f, 9.0f, 42.0f}};
@@ -196,8 +193,7 @@ TEST_CASE("OpenGL transfers and packs light as the CPU does") {
     Picture first({100, 3}, 4), second({100, 3}, 4);
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 n = glm::normalize(glm::dvec3(std::sin(i), std::cos(3 * i), std::sin(2 * i + 1)));
-        for (size_t c = 0; c < 3; ++c)
-            first.values[size_t(4 * i) + c] = float(std::abs(n[int(c)]));
+        for (size_t c = 0; c < 3; ++c) first.values[size_t(4 * i) + c] = float(std::abs(n[int(c)]));
         first.values[size_t(4 * i + 3)] = 0.01f * float(i + 1);
         second.values[size_t(4 * i)] = std::pow(10.0f, -6.0f + 0.04f * float(i));
         second.values[size_t(4 * i + 1)] = first.values[size_t(4 * i + 3)] * (1.0f + 0.003f * float(i % 100));

@@ -62,21 +62,17 @@ struct LossyFunction<name, Value(APIENTRY*)(Arguments...)> {
     static inline Value(APIENTRY* real)(Arguments...) = nullptr;
 
     static Value APIENTRY call(Arguments... arguments) {
-        if (!LossyOpenGL::loses())
-            return real(arguments...);
-        if constexpr (name == LossyName::GetError)
-            return GL_CONTEXT_LOST;
+        if (!LossyOpenGL::loses()) return real(arguments...);
+        if constexpr (name == LossyName::GetError) return GL_CONTEXT_LOST;
         else if constexpr (name == LossyName::GetGraphicsResetStatus ||
                            name == LossyName::GetGraphicsResetStatusKHR)
             return std::exchange(LossyOpenGL::reset, GLenum(GL_NO_ERROR));
-        else if constexpr (name == LossyName::GetQueryObjectuiv)
-            return setAvailable(arguments...);
+        else if constexpr (name == LossyName::GetQueryObjectuiv) return setAvailable(arguments...);
         else if constexpr (name == LossyName::DeleteTextures || name == LossyName::DeleteBuffers ||
                            name == LossyName::DeleteSamplers || name == LossyName::DeleteQueries ||
                            name == LossyName::DeleteProgram || name == LossyName::DeleteShader)
             return real(arguments...);
-        else
-            return Value();
+        else return Value();
     }
     static void setAvailable(GLuint, GLenum, GLuint* available) { *available = GL_TRUE; }
 };
@@ -84,8 +80,7 @@ struct LossyFunction<name, Value(APIENTRY*)(Arguments...)> {
 inline void* LossyOpenGL::functionNamed(const char* name) {
     asked.insert(name);
     void* const real = host::OpenGLContext::functionNamed(name);
-    if (!real || missing.contains(name))
-        return nullptr;
+    if (!real || missing.contains(name)) return nullptr;
     const std::string_view wanted(name);
 #define REBOUND_LOSSY_ENTRY(type, function)                                                                  \
     if (wanted == "gl" #function) {                                                                          \

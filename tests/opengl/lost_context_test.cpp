@@ -59,8 +59,7 @@ TEST_CASE("OpenGL: a context that is lost while a device is made, at any call") 
             const auto device = opengl::Device::create(options);
             made = bool(device);
             CAPTURE(lost);
-            if (!made)
-                checkLost(device, {"creating a device"});
+            if (!made) checkLost(device, {"creating a device"});
         }
         CHECK(lost > 10); // the version, limits, and the reset status
     });
@@ -75,8 +74,7 @@ TEST_CASE("OpenGL: a context that is lost while a plan is compiled, at any call"
             const auto program = device.compile(copyPlan(extent));
             made = bool(program);
             CAPTURE(lost);
-            if (made)
-                continue;
+            if (made) continue;
             checkLost(program, {"compiling a plan"});
             checkStaysLost(device, nullptr, program.error());
         }
@@ -99,14 +97,12 @@ TEST_CASE("OpenGL: a context that is lost while a frame is recorded, at any call
             auto recorded = program.record(frame.inputs());
             survived = !LossyOpenGL::isLost;
             CAPTURE(lost);
-            if (survived)
-                continue;
+            if (survived) continue;
             // Commands that went nowhere are noticed at the next look: at times, or at the next frame.
             REQUIRE(program.timings().size() == before.size());
             for (size_t i = 0; i < before.size(); ++i)
                 CHECK(program.timings()[i].milliseconds == before[i].milliseconds);
-            if (recorded)
-                recorded = program.record(frame.inputs());
+            if (recorded) recorded = program.record(frame.inputs());
             checkLost(recorded, {"recording a frame", "reading timestamps"});
             checkStaysLost(device, &program, recorded.error());
             glUseProgram(0); // the real context: state was not put back
@@ -145,8 +141,7 @@ TEST_CASE("OpenGL: a lost context whose reset somebody else has read about, or t
         const CopyFrame frame(extent);
         for (bool tells : {false, true}) {
             const opengl::DeviceOptions options = lossyOptions();
-            if (!tells)
-                LossyOpenGL::missing = {"glGetGraphicsResetStatus"};
+            if (!tells) LossyOpenGL::missing = {"glGetGraphicsResetStatus"};
             const opengl::Device device = createDevice(options);
             opengl::Program program = compile(device, copyPlan(extent));
             LossyOpenGL::reset = GL_NO_ERROR;
@@ -178,8 +173,7 @@ TEST_CASE("OpenGL: the reset status is found by the name that the context has fo
             FakeOpenGL::version = version.empty() ? nullptr : version.c_str();
             std::set<std::string> asked;
             options.loader = [&](const char* function) {
-                if (std::string_view(function).starts_with(name))
-                    asked.insert(function);
+                if (std::string_view(function).starts_with(name)) asked.insert(function);
                 return FakeOpenGL::functionNamed(function);
             };
             createDevice(options);

@@ -15,9 +15,7 @@
 
 namespace rebound::test {
 
-inline const char* name(host::OpenGLApi api) {
-    return api == host::OpenGLApi::es ? "OpenGL ES" : "OpenGL";
-}
+inline const char* name(host::OpenGLApi api) { return api == host::OpenGLApi::es ? "OpenGL ES" : "OpenGL"; }
 
 inline opengl::DeviceOptions optionsWithTestShaders() {
     opengl::DeviceOptions options;
@@ -29,8 +27,7 @@ inline opengl::DeviceOptions optionsWithTestShaders() {
 // No error is pending, and debug output has nothing to say.
 inline void checkQuiet(host::OpenGLContext& context) {
     CHECK(glGetError() == GL_NO_ERROR);
-    for (const std::string& message : context.takeMessages())
-        FAIL_CHECK("debug output: " << message);
+    for (const std::string& message : context.takeMessages()) FAIL_CHECK("debug output: " << message);
 }
 
 // Runs the body in a context of each API that the system has, and checks that it leaves no error and no
@@ -85,8 +82,7 @@ struct HostTextures {
 
     HostTextures(const Plan& plan, const Pictures& pictures, Format outputFormat) {
         for (const Resource& r : plan.resources) {
-            if (r.kind == ResourceKind::input)
-                textures.emplace(r.name, textureOf(pictures.at(r.name)));
+            if (r.kind == ResourceKind::input) textures.emplace(r.name, textureOf(pictures.at(r.name)));
             if (r.kind == ResourceKind::output)
                 textures.emplace(r.name, host::OpenGLTexture(outputFormat, lab::Image(r.extent, 4, -1.0f)));
         }
@@ -113,8 +109,7 @@ inline Pictures runPlan(const opengl::Device& device, const Plan& plan, const Pi
     REQUIRE_MESSAGE(recorded, (recorded ? "" : recorded.error().message));
     Pictures outputs;
     for (const Resource& r : plan.resources)
-        if (r.kind == ResourceKind::output)
-            outputs.emplace(r.name, host.read(r.name, r.channels));
+        if (r.kind == ResourceKind::output) outputs.emplace(r.name, host.read(r.name, r.channels));
     return outputs;
 }
 
@@ -127,8 +122,7 @@ inline Pictures runPlan(const cpu::Device& device, const Plan& plan, const Pictu
     FrameInputs<cpu::Image> inputs;
     inputs.constants = constants;
     for (const Resource& r : plan.resources) {
-        if (r.kind == ResourceKind::input)
-            inputs.images.push_back({r.name, all.at(r.name).image()});
+        if (r.kind == ResourceKind::input) inputs.images.push_back({r.name, all.at(r.name).image()});
         if (r.kind == ResourceKind::output)
             inputs.images.push_back(
                 {r.name, outputs.emplace(r.name, Picture(r.extent, r.channels)).first->second.image()});

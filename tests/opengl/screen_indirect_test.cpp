@@ -103,8 +103,7 @@ void checkSurfaces(const Picture& got, const Picture& want) {
         largest[i % 4] = std::max(largest[i % 4], std::abs(double(want.values[i])));
     size_t apart = 0;
     for (size_t i = 0; i < want.values.size(); ++i)
-        if (!(std::abs(double(got.values[i]) - double(want.values[i])) <= 1e-5 * largest[i % 4]))
-            ++apart;
+        if (!(std::abs(double(got.values[i]) - double(want.values[i])) <= 1e-5 * largest[i % 4])) ++apart;
     CHECK(double(apart) <= 0.005 * double(want.values.size()));
 }
 
@@ -116,10 +115,8 @@ void checkPictures(const Plan& plan, const Pictures& got, const Pictures& want) 
         const Picture& picture = image;
         CAPTURE(resource);
         REQUIRE(mean(picture) != 0.0);
-        if (const int times = rounded.at(resource); times > 0)
-            checkLight(got.at(resource), picture, times);
-        else
-            checkSurfaces(got.at(resource), picture);
+        if (const int times = rounded.at(resource); times > 0) checkLight(got.at(resource), picture, times);
+        else checkSurfaces(got.at(resource), picture);
     }
 }
 
@@ -159,8 +156,7 @@ Pictures transientsOf(const cpu::Device& device, const Plan& plan, const Frame& 
     });
     images["indirect"] = images["composed"] = Picture(f.settings.resolution, 3);
     FrameInputs<cpu::Image> inputs;
-    for (auto& [resource, picture] : images)
-        inputs.images.push_back({resource, picture.image()});
+    for (auto& [resource, picture] : images) inputs.images.push_back({resource, picture.image()});
     inputs.constants = constantsOf(f);
     REQUIRE(program->record(inputs));
     return pictures;
@@ -250,8 +246,7 @@ TEST_CASE("indirect light on OpenGL: the same frame gives the same bits") {
         for (int frame = 0; frame < 5; ++frame) {
             REQUIRE(program.record(host.inputs(constantsOf(f))));
             const Picture picture = host.read("indirect", 3);
-            if (frame == 0)
-                first = picture;
+            if (frame == 0) first = picture;
             CHECK(sameBits(picture, first));
         }
     });

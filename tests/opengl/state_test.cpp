@@ -96,17 +96,13 @@ public:
             const GLenum target = i % 2 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
             glActiveTexture(GL_TEXTURE0 + GLenum(i));
             glBindTexture(target, textures[i]);
-            if (i % 2)
-                glTexStorage3D(target, 3, GL_R32F, 16, 16, 4);
-            else
-                glTexStorage2D(target, 3, GL_RGBA8, 16, 16);
+            if (i % 2) glTexStorage3D(target, 3, GL_R32F, 16, 16, 4);
+            else glTexStorage2D(target, 3, GL_RGBA8, 16, 16);
         }
         glGenSamplers(GLsizei(samplers.size()), samplers.data());
-        for (size_t i = 0; i < samplers.size(); ++i)
-            glBindSampler(GLuint(i), samplers[i]);
+        for (size_t i = 0; i < samplers.size(); ++i) glBindSampler(GLuint(i), samplers[i]);
         for (GLuint i = 0; i < 4; ++i)
-            if (i % 2)
-                glBindImageTexture(i, textures[i], GLint(i % 3), GL_TRUE, 0, GL_READ_ONLY, GL_R32F);
+            if (i % 2) glBindImageTexture(i, textures[i], GLint(i % 3), GL_TRUE, 0, GL_READ_ONLY, GL_R32F);
             else
                 glBindImageTexture(i, textures[1], 2, GL_FALSE, GLint(i), i ? GL_WRITE_ONLY : GL_READ_ONLY,
                                    GL_R32I);
@@ -143,10 +139,8 @@ private:
         }
         for (GLuint i = 0; i < 8; ++i) {
             glBindBufferRange(GL_UNIFORM_BUFFER, i, buffers[i], 256 * GLintptr(i), 64 + 16 * GLsizeiptr(i));
-            if (i % 2)
-                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[7 - i]);
-            else
-                glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, buffers[7 - i], 512, 1024);
+            if (i % 2) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[7 - i]);
+            else glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, buffers[7 - i], 512, 1024);
         }
         glBindBuffer(GL_UNIFORM_BUFFER, buffers[8]);
         glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffers[9]);
@@ -258,14 +252,12 @@ TEST_CASE("a host's query of elapsed time runs on, and its debug groups stay ope
         GLint most = 0, open = 0;
         glGetIntegerv(GL_MAX_DEBUG_GROUP_STACK_DEPTH, &most);
         glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &open);
-        for (int i = open; i < most; ++i)
-            glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "host");
+        for (int i = open; i < most; ++i) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "host");
         REQUIRE(program.record(frame.inputs()));
         GLint after = 0;
         glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &after);
         CHECK(after == most);
-        for (int i = open; i < most; ++i)
-            glPopDebugGroup();
+        for (int i = open; i < most; ++i) glPopDebugGroup();
         CHECK(frame.isRight());
     });
 }

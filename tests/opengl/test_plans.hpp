@@ -78,8 +78,7 @@ struct CopyFrame {
         for (int y = 0; y < got.extent.height; ++y)
             for (int x = 0; x < got.extent.width; ++x)
                 for (int c = 0; c < 4; ++c)
-                    if (got.at(x, y, c) != want.reach(x + 2, y + 1, c))
-                        return false;
+                    if (got.at(x, y, c) != want.reach(x + 2, y + 1, c)) return false;
         return true;
     }
     bool isUntouched() const { return read().values == Picture(result.extent(), 4, -1.0f).values; }
@@ -120,13 +119,11 @@ struct FakeOpenGL {
     template <char kind, auto generate>
     static void APIENTRY make(GLsizei count, GLuint* names) {
         generate(count, names);
-        for (GLsizei i = 0; i < count; ++i)
-            live.insert({kind, names[i]});
+        for (GLsizei i = 0; i < count; ++i) live.insert({kind, names[i]});
     }
     template <char kind, auto remove>
     static void APIENTRY unmake(GLsizei count, const GLuint* names) {
-        for (GLsizei i = 0; i < count; ++i)
-            live.erase({kind, names[i]});
+        for (GLsizei i = 0; i < count; ++i) live.erase({kind, names[i]});
         remove(count, names);
     }
     static GLuint APIENTRY createProgram() {
@@ -163,8 +160,7 @@ struct FakeOpenGL {
     }
     static void APIENTRY getQueryObjectuiv(GLuint query, GLenum name, GLuint* value) {
         glGetQueryObjectuiv(query, name, value);
-        if (resultsAreLate)
-            *value = 0;
+        if (resultsAreLate) *value = 0;
     }
     static inline PFNGLGETQUERYOBJECTUI64VPROC realResult = nullptr;
     static void APIENTRY getQueryObjectui64v(GLuint query, GLenum name, GLuint64* value) {
@@ -184,10 +180,8 @@ struct FakeOpenGL {
         return std::exchange(error, GLenum(GL_NO_ERROR)) | real;
     }
     static void APIENTRY getIntegerv(GLenum name, GLint* value) {
-        if (const auto said = integers.find(name); said != integers.end())
-            *value = said->second;
-        else
-            glGetIntegerv(name, value);
+        if (const auto said = integers.find(name); said != integers.end()) *value = said->second;
+        else glGetIntegerv(name, value);
     }
     static const GLubyte* APIENTRY getString(GLenum name) {
         return version && name == GL_VERSION ? reinterpret_cast<const GLubyte*>(version) : glGetString(name);
@@ -219,8 +213,7 @@ struct FakeOpenGL {
             {"glGetIntegerv", pointer(getIntegerv)},
             {"glGetString", pointer(getString)},
         };
-        if (missing.contains(name))
-            return nullptr;
+        if (missing.contains(name)) return nullptr;
         if (std::string_view(name).starts_with("glGetQueryObjectui64v"))
             realResult =
                 reinterpret_cast<PFNGLGETQUERYOBJECTUI64VPROC>(host::OpenGLContext::functionNamed(name));

@@ -19,8 +19,8 @@ void checkFrame(const lab::Scene& scene, const lab::CameraView& view, const std:
         const auto read = [&](const auto& target) { return require(renderer->read(target, 3)); };
         const lab::Image lit = read(t.lit);
         checkIndirectLight(renderer->indirectLight().settings(),
-                           {cameraOf(view, size), renderer->readDepth(), read(t.normal), lit, read(t.albedo), lit,
-                            read(t.indirect), read(t.composed)});
+                           {cameraOf(view, size), renderer->readDepth(), read(t.normal), lit, read(t.albedo),
+                            lit, read(t.indirect), read(t.composed)});
     }
     checkSilence(context);
 }
@@ -78,8 +78,14 @@ lab::Image composedOnCpu(const lab::Frame& frame, const lab::CameraView& view, F
     ScreenIndirectSettings settings = require(screenIndirectPreset("quarter-64", frame.depth.extent()));
     settings.conventions.firstRow = firstRow;
     const lab::Image outgoing = rows(lab::outgoingRadiance(frame));
-    return rows(onCpu(settings, {lab::cameraMatrices(view, frame.depth.extent()), rows(frame.depth), rows(frame.normal),
-                                 outgoing, rows(frame.albedo), outgoing, {}, {}})
+    return rows(onCpu(settings, {lab::cameraMatrices(view, frame.depth.extent()),
+                                 rows(frame.depth),
+                                 rows(frame.normal),
+                                 outgoing,
+                                 rows(frame.albedo),
+                                 outgoing,
+                                 {},
+                                 {}})
                     .composed);
 }
 
@@ -98,13 +104,15 @@ TEST_CASE("the Cornell box looks as the command line renders it") {
         const auto renderer = rendererFor(scene, options.extent, view);
         require(renderer->render(view));
         const lab::Image composed = upsideDown(require(renderer->read(renderer->targets().composed, 3)));
-        const PictureDifference same = pictureDifference(composed, fromBottom), other = pictureDifference(composed, fromTop);
+        const PictureDifference same = pictureDifference(composed, fromBottom),
+                                other = pictureDifference(composed, fromTop);
         const PictureDifference ofRows = pictureDifference(fromBottom, fromTop);
         const double means = mean(composed) / mean(fromTop);
-        MESSAGE("from the CPU's picture, rows from the bottom: ", same.average, " of 255 on average, ", 100.0 * same.far,
-                " % of values by more than 32; from the top, as the command line has it: ", other.average, ", ",
-                100.0 * other.far, " %; these two from each other: ", ofRows.average, ", ", 100.0 * ofRows.far,
-                " %; means' ratio ", means);
+        MESSAGE("from the CPU's picture, rows from the bottom: ", same.average, " of 255 on average, ",
+                100.0 * same.far,
+                " % of values by more than 32; from the top, as the command line has it: ", other.average,
+                ", ", 100.0 * other.far, " %; these two from each other: ", ofRows.average, ", ",
+                100.0 * ofRows.far, " %; means' ratio ", means);
         CHECK(same.average < mostOfCornell.average);
         CHECK(same.far < mostOfCornell.far);
         // Samples have fixed places around a texel, in rows and columns of the image: with the rows turned over, they are

@@ -12,14 +12,17 @@
 
 namespace rebound::engine {
 
-inline host::OpenGLContext openContext() { return require(host::OpenGLContext::create(host::OpenGLApi::desktop)); }
+inline host::OpenGLContext openContext() {
+    return require(host::OpenGLContext::create(host::OpenGLApi::desktop));
+}
 
 inline void checkSilence(host::OpenGLContext& context) {
     for (const std::string& message : context.takeMessages()) FAIL_CHECK(message);
     require(checkErrors("in the test"));
 }
 
-inline std::unique_ptr<Renderer> rendererFor(const lab::Scene& scene, Extent2D size, const lab::CameraView& view,
+inline std::unique_ptr<Renderer> rendererFor(const lab::Scene& scene, Extent2D size,
+                                             const lab::CameraView& view,
                                              const std::string& preset = "quarter-64") {
     auto renderer = require(Renderer::create(host::OpenGLContext::functionNamed, scene, preset));
     require(renderer->resize(size, view));

@@ -14,7 +14,8 @@ TEST_CASE("resizes between frames: no message, and the picture of a renderer tha
     const lab::CameraView& view = scene.cameras.at(0);
     {
         const auto renderer = rendererFor(scene, {64, 48}, view);
-        for (Extent2D size : {Extent2D{64, 48}, Extent2D{97, 33}, Extent2D{31, 57}, Extent2D{1, 1}, Extent2D{96, 64}}) {
+        for (Extent2D size :
+             {Extent2D{64, 48}, Extent2D{97, 33}, Extent2D{31, 57}, Extent2D{1, 1}, Extent2D{96, 64}}) {
             require(renderer->resize(size, view));
             for (int i = 0; i < 3; ++i) require(renderer->render(view));
         }
@@ -89,7 +90,8 @@ TEST_CASE("a directional light's shadow falls where it must, and nowhere else") 
 
 TEST_CASE("a shader that the driver refuses is named, with the driver's words") {
     const auto context = openContext();
-    const auto made = makeProgram("broken", {{GL_COMPUTE_SHADER, "#version 430\nvoid main() { nonsense(); }\n"}});
+    const auto made =
+        makeProgram("broken", {{GL_COMPUTE_SHADER, "#version 430\nvoid main() { nonsense(); }\n"}});
     REQUIRE_FALSE(made);
     CHECK(made.error().message.find("broken") != std::string::npos);
     CHECK(made.error().message.find("nonsense") != std::string::npos);

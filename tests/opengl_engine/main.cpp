@@ -5,6 +5,7 @@
 
 int main(int count, char** arguments) {
     using rebound::host::OpenGLContext;
-    const std::string why = rebound::test::whyMissing(OpenGLContext::create(rebound::host::OpenGLApi::desktop));
+    const std::string why =
+        rebound::test::whyMissing(OpenGLContext::create(rebound::host::OpenGLApi::desktop));
     return rebound::test::runUnlessMissing(why, count, arguments);
 }

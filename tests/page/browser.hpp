@@ -17,8 +17,7 @@ namespace rebound::page {
 // Empty where there is none.
 inline std::string browserName() {
     for (const char* name : {"chromium", "google-chrome", "chromium-browser"})
-        if (std::system(("command -v " + std::string(name) + " > /dev/null").c_str()) == 0)
-            return name;
+        if (std::system(("command -v " + std::string(name) + " > /dev/null").c_str()) == 0) return name;
     return {};
 }
 
@@ -31,7 +30,8 @@ struct Visit {
 inline Visit visit(const std::filesystem::path& page, const std::string& options) {
     const lab::TemporaryFolder profile;
     const std::string command =
-        browserName() + " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --hide-scrollbars --no-first-run" +
+        browserName() +
+        " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --hide-scrollbars --no-first-run" +
         " --disable-background-networking --host-resolver-rules='MAP * ~NOTFOUND' --enable-logging=stderr" +
         " --virtual-time-budget=10000 --user-data-dir='" + (profile / "profile").string() + "' " + options +
         " 'file://" + page.string() + "' > '" + (profile / "document").string() + "' 2> '" +
@@ -43,8 +43,7 @@ inline Visit visit(const std::filesystem::path& page, const std::string& options
     Visit result{lab::readText(profile / "document"), {}};
     std::istringstream messages(lab::readText(profile / "messages"));
     for (std::string line; std::getline(messages, line);)
-        if (line.find("CONSOLE") != std::string::npos)
-            result.console += line + "\n";
+        if (line.find("CONSOLE") != std::string::npos) result.console += line + "\n";
     return result;
 }
 

@@ -44,8 +44,7 @@ std::string decoded(const std::string& text) {
     int count = 0;
     for (const char c : text) {
         const size_t digit = digits.find(c);
-        if (digit == std::string::npos)
-            break;
+        if (digit == std::string::npos) break;
         bits = bits << 6 | uint32_t(digit);
         count += 6;
         if (count >= 8) {
@@ -113,8 +112,7 @@ TEST_CASE("the page loads, filters, selects and sorts") {
 TEST_CASE("names are shown as text, whatever they hold") {
     Results results = charts::madeResults();
     const std::string hostile = "</script><img src=x onerror=alert(1)>";
-    for (charts::Point& point : results.points)
-        point.name = hostile;
+    for (charts::Point& point : results.points) point.name = hostile;
     const nlohmann::json seen = driven(results);
     CHECK(seen.at("all") == Counts{10, 10, 10});
     CHECK(seen.at("clicked").at("title") == hostile);
@@ -134,18 +132,19 @@ TEST_CASE("screenshots in light and dark, on a desktop and a phone") {
     fs::create_directories(folder);
     const lab::TemporaryFolder pages;
     const std::string select = "<script>select(points[2]);</script>";
-    lab::writeText(pages / "page.html",
-                   insertedBefore(madePage(charts::madeResults()), "</body>", select));
+    lab::writeText(pages / "page.html", insertedBefore(madePage(charts::madeResults()), "</body>", select));
     // A browser's window has a least width; a frame within it has none.
-    lab::writeText(pages / "phone.html", "<!DOCTYPE html><body style='margin:0'><iframe src='page.html' style='border:0;"
-                                         "width:390px;height:1800px'></iframe>");
-    const std::pair<const char*, const char*> schemes[] = {{"light", ""},
-                                                           {"dark", " --blink-settings=preferredColorScheme=0"}};
+    lab::writeText(pages / "phone.html",
+                   "<!DOCTYPE html><body style='margin:0'><iframe src='page.html' style='border:0;"
+                   "width:390px;height:1800px'></iframe>");
+    const std::pair<const char*, const char*> schemes[] = {
+        {"light", ""}, {"dark", " --blink-settings=preferredColorScheme=0"}};
     for (const auto& [scheme, option] : schemes) {
         const auto shoot = [&, o = option](const char* page, const std::string& name, const char* size) {
             const fs::path file = folder / (name + ".png");
             fs::remove(file);
-            visit(pages / page, "--window-size=" + std::string(size) + " --screenshot='" + file.string() + "'" + o);
+            visit(pages / page,
+                  "--window-size=" + std::string(size) + " --screenshot='" + file.string() + "'" + o);
             CHECK(lab::readText(file).starts_with("\x89PNG"));
         };
         shoot("page.html", std::string("desktop-") + scheme, "1440,1100");

@@ -31,8 +31,7 @@ inline Operands everyPair(const std::vector<float>& values, int channels = 1) {
 // For the operators of integers, which cut off what is behind the point.
 inline std::vector<float> wholeNumbers() {
     std::vector<float> values;
-    for (int i = -9; i <= 9; ++i)
-        values.push_back(float(i));
+    for (int i = -9; i <= 9; ++i) values.push_back(float(i));
     for (float v : {4096.0f, -4096.0f, 1000.0f, -1000.0f, 32767.0f, -2.9f, 2.9f, 12345.0f})
         values.push_back(v);
     return values;

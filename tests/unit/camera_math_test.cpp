@@ -86,8 +86,7 @@ TEST_CASE("stored normals lead back to view space, with z along the viewing axis
             const glm::vec3 world =
                 glm::normalize(glm::vec3(std::sin(float(i)), std::cos(1.7f * float(i)), 0.3f));
             const glm::vec3 stored = storedNormal(c, view, world);
-            for (int k = 0; k < 3; ++k)
-                normal.values[size_t(3 * i + k)] = stored[k];
+            for (int k = 0; k < 3; ++k) normal.values[size_t(3 * i + k)] = stored[k];
             expected.push_back(glm::mat3(view) * world * glm::vec3(1, 1, forward));
         }
         for (cpu::Isa isa : {cpu::Isa::scalar, deviceFor(cpu::Isa::automatic).isa()}) {
@@ -125,8 +124,7 @@ TEST_CASE("pixels' areas add up to a tilted plane's, perspective") {
     for (cpu::Isa isa : cpu::availableIsas()) {
         const Picture areas = cameraMath(isa, cameraArea, c, camera, depth, normal);
         double sum = 0.0;
-        for (size_t i = 0; i < depth.values.size(); ++i)
-            sum += areas.values[4 * i];
+        for (size_t i = 0; i < depth.values.size(); ++i) sum += areas.values[4 * i];
         // The midpoint rule's error is of order (1 / 1024)^2.
         CHECK(sum == doctest::Approx(exact).epsilon(1e-5));
     }
@@ -149,8 +147,7 @@ TEST_CASE("pixels' areas add up to a tilted plane's, orthographic") {
     for (cpu::Isa isa : cpu::availableIsas()) {
         double sum = 0.0;
         const Picture areas = cameraMath(isa, cameraArea, c, camera, depth, normal);
-        for (size_t i = 0; i < depth.values.size(); ++i)
-            sum += areas.values[4 * i];
+        for (size_t i = 0; i < depth.values.size(); ++i) sum += areas.values[4 * i];
         CHECK(sum ==
               doctest::Approx(24.0 / std::cos(double(tilt))).epsilon(1e-5)); // single precision of each pixel
     }
@@ -170,15 +167,13 @@ TEST_CASE("pixels' areas add up to a sphere's cap") {
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
             const glm::dvec2 u = (glm::dvec2(x + 0.5, -(y + 0.5)) / 600.0 * 2.0 - glm::dvec2(1, -1)) * 0.36;
-            if (glm::length(u) >= limit)
-                continue;
+            if (glm::length(u) >= limit) continue;
             const glm::dvec3 ray(u, -1.0), center(0, 0, -3);
             const double a = glm::dot(ray, ray), b = glm::dot(ray, center);
             const double t = (b - std::sqrt(b * b - a * 8.0)) / a;
             const glm::dvec3 n = ray * t - center;
             depth.at(x, y, 0) = float(t);
-            for (int k = 0; k < 3; ++k)
-                normal.at(x, y, k) = float(n[k]);
+            for (int k = 0; k < 3; ++k) normal.at(x, y, k) = float(n[k]);
         }
     // The cap between the axis and where the cone's ray meets the sphere: 2 pi (1 - cos).
     const double a = 1.0 + limit * limit, t = (3.0 - std::sqrt(9.0 - 8.0 * a)) / a;
@@ -186,8 +181,7 @@ TEST_CASE("pixels' areas add up to a sphere's cap") {
     for (cpu::Isa isa : cpu::availableIsas()) {
         const Picture areas = cameraMath(isa, cameraSurfaceArea, c, camera, depth, normal);
         double sum = 0.0;
-        for (size_t i = 0; i < depth.values.size(); ++i)
-            sum += areas.values[4 * i] * pi;
+        for (size_t i = 0; i < depth.values.size(); ++i) sum += areas.values[4 * i] * pi;
         // The cone's edge is 1570 pixels long; that each of them counts whole or not leaves about its root,
         // 40 pixels of 200000.
         CHECK(sum == doctest::Approx(exact).epsilon(1e-3));
@@ -203,8 +197,7 @@ TEST_CASE("grazing pixels' areas are bounded by the smallest cosine") {
         lens.shiftX = lens.shiftY = 0.0;
         const CameraConstants camera = constantsOf(c, {glm::mat4(1.0f), projectionOf(c, lens)}, extent);
         Picture depth(extent, 1, 2.0f), edgeOn(extent, 3), facing(extent, 3);
-        for (size_t i = 0; i < 25; ++i)
-            edgeOn.values[3 * i] = facing.values[3 * i + 2] = 1.0f;
+        for (size_t i = 0; i < 25; ++i) edgeOn.values[3 * i] = facing.values[3 * i + 2] = 1.0f;
         for (cpu::Isa isa : cpu::availableIsas()) {
             const float front = cameraMath(isa, cameraArea, c, camera, depth, facing).at(2, 2, 0);
             const float edge = cameraMath(isa, cameraArea, c, camera, depth, edgeOn, 0.05f).at(2, 2, 0);
@@ -240,18 +233,15 @@ TEST_CASE("surfaces that are none are zero, whatever depth and normal hold") {
         const CameraConstants camera = constantsOf(c, {glm::mat4(1.0f), projectionOf(c, {})}, extent);
         for (const Bad& bad : bads) {
             Picture depth(extent, 1, 2.0f), normal(extent, 3);
-            for (int x = 0; x < 17; ++x)
-                normal.at(x, 0, 2) = 2.5f; // of any length
+            for (int x = 0; x < 17; ++x) normal.at(x, 0, 2) = 2.5f; // of any length
             depth.at(9, 0, 0) = bad.depth;
-            for (int k = 0; k < 3; ++k)
-                normal.at(9, 0, k) = bad.normal[k];
+            for (int k = 0; k < 3; ++k) normal.at(9, 0, k) = bad.normal[k];
             for (cpu::Isa isa : cpu::availableIsas()) {
                 const Picture surface = cameraMath(isa, cameraSurface, c, camera, depth, normal);
                 const Picture area = cameraMath(isa, cameraSurfaceArea, c, camera, depth, normal);
                 INFO(std::string(cpu::name(isa)), ": depth ", bad.depth, ", normal ", bad.normal.x, " ",
                      bad.normal.y, " ", bad.normal.z);
-                for (int k = 0; k < 4; ++k)
-                    CHECK(surface.at(9, 0, k) == 0.0f);
+                for (int k = 0; k < 4; ++k) CHECK(surface.at(9, 0, k) == 0.0f);
                 CHECK(area.at(9, 0, 0) == 0.0f);
                 for (int x : {8, 10}) {
                     CHECK(surface.at(x, 0, 2) == doctest::Approx(-1.0).epsilon(1e-6));
@@ -266,8 +256,7 @@ TEST_CASE("surfaces that are none are zero, whatever depth and normal hold") {
 TEST_CASE("device depth of the far plane is no surface; any other is") {
     const Extent2D extent{2, 1};
     for (const GBufferConventions& c : everyConvention()) {
-        if (c.depthEncoding == DepthEncoding::planar)
-            continue;
+        if (c.depthEncoding == DepthEncoding::planar) continue;
         const CameraConstants camera =
             constantsOf(c, {viewOf(c, glm::mat4(1.0f)), projectionOf(c, {})}, extent);
         Picture depth(extent, 1), normal(extent, 3);
@@ -275,8 +264,7 @@ TEST_CASE("device depth of the far plane is no surface; any other is") {
         depth.at(1, 0, 0) = storedDepth(c, {}, 10.0);
         for (int x = 0; x < 2; ++x) {
             const glm::vec3 n = storedNormal(c, viewOf(c, glm::mat4(1.0f)), glm::vec3(0, 0, 1));
-            for (int k = 0; k < 3; ++k)
-                normal.at(x, 0, k) = n[k];
+            for (int k = 0; k < 3; ++k) normal.at(x, 0, k) = n[k];
         }
         const Picture surface = cameraMath(cpu::Isa::automatic, cameraSurface, c, camera, depth, normal);
         CHECK(surface.at(0, 0, 3) == 0.0f);

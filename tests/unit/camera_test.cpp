@@ -94,8 +94,7 @@ TEST_CASE("GLM's projections are read as the conventions that GLM's names say") 
 
 TEST_CASE("projections that do not fit the conventions") {
     for (const GBufferConventions& c : everyConvention()) {
-        if (c.depthEncoding == DepthEncoding::planar)
-            continue;
+        if (c.depthEncoding == DepthEncoding::planar) continue;
         const Camera camera{viewOf(c, glm::mat4(1.0f)), projectionOf(c, {})};
         const bool perspective = c.projection == Projection::perspective;
         GBufferConventions other = c;
@@ -110,8 +109,7 @@ TEST_CASE("projections that do not fit the conventions") {
                              ? "looks down -z, but conventions.handedness says left (+z)"
                              : "looks down +z, but conventions.handedness says right (-z)",
                          camera, other);
-        else
-            checkRefused("handedness", camera, other);
+        else checkRefused("handedness", camera, other);
         other = c;
         other.depthDirection =
             c.depthDirection == DepthDirection::forward ? DepthDirection::reversed : DepthDirection::forward;

@@ -13,18 +13,12 @@ const glm::mat4 world =
 
 std::string describe(const GBufferConventions& c) {
     std::string text = c.depthEncoding == DepthEncoding::planar ? "planar depth" : "device depth";
-    if (c.depthRange == DepthRange::minusOneToOne)
-        text += ", minus one to one";
-    if (c.depthDirection == DepthDirection::reversed)
-        text += ", reversed";
-    if (c.farPlane == FarPlane::infinite)
-        text += ", infinite";
-    if (c.projection == Projection::orthographic)
-        text += ", orthographic";
-    if (c.handedness == Handedness::left)
-        text += ", left-handed";
-    if (c.firstRow == FirstRow::bottom)
-        text += ", first row at the bottom";
+    if (c.depthRange == DepthRange::minusOneToOne) text += ", minus one to one";
+    if (c.depthDirection == DepthDirection::reversed) text += ", reversed";
+    if (c.farPlane == FarPlane::infinite) text += ", infinite";
+    if (c.projection == Projection::orthographic) text += ", orthographic";
+    if (c.handedness == Handedness::left) text += ", left-handed";
+    if (c.firstRow == FirstRow::bottom) text += ", first row at the bottom";
     text += c.normalSpace == NormalSpace::view ? ", view-space normals" : ", world-space normals";
     return text + (c.normalEncoding == NormalEncoding::unsignedUnit ? ", unsigned" : ", signed");
 }
@@ -48,8 +42,7 @@ TEST_CASE("every convention gives the same light: the G-buffer's own resolution,
         const Outputs reference = render(frameOf(plain, StartResolution::full, 1), device);
         CHECK(mean(reference.indirect) > 0.01);
         for (const GBufferConventions& c : everyConvention()) {
-            if (c.projection != projection)
-                continue;
+            if (c.projection != projection) continue;
             INFO(describe(c));
             const Outputs other = render(frameOf(c, StartResolution::full, 1), device);
             // Stored depth of 24 bits moves points by up to 1e-5 of their distance, a receiver's neighbours
@@ -69,8 +62,7 @@ TEST_CASE("every convention gives the same light: reduced and upsampled") {
         const Outputs reference = render(frameOf(plain, StartResolution::half, 3), device);
         CHECK(mean(reference.indirect) > 0.01);
         for (const GBufferConventions& c : everyConvention()) {
-            if (c.projection != projection)
-                continue;
+            if (c.projection != projection) continue;
             INFO(describe(c));
             const Outputs other = render(frameOf(c, StartResolution::half, 3), device);
             // Reduction chooses among texels. On a flat wall one is as good as the other but for the last

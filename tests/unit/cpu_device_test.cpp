@@ -88,8 +88,7 @@ TEST_CASE("instruction sets have names, and scalar is always there") {
     const auto available = cpu::availableIsas();
     REQUIRE_FALSE(available.empty());
     CHECK(available.front() == Isa::scalar);
-    for (Isa isa : available)
-        CHECK(cpu::isAvailable(isa));
+    for (Isa isa : available) CHECK(cpu::isAvailable(isa));
     CHECK(cpu::isAvailable(Isa::automatic));
     CHECK(deviceFor(Isa::automatic).isa() == available.back());
     CHECK_FALSE(cpu::isAvailable(Isa(99)));
@@ -111,13 +110,11 @@ TEST_CASE("a CPU device is refused for what the machine or the build lacks") {
 }
 
 TEST_CASE("a CPU device has the threads it was asked for, or the engine's") {
-    for (int threads : {1, 2, 3, 7})
-        CHECK(deviceFor(cpu::Isa::automatic, threads).threads() == threads);
+    for (int threads : {1, 2, 3, 7}) CHECK(deviceFor(cpu::Isa::automatic, threads).threads() == threads);
     CHECK(deviceFor(cpu::Isa::automatic, 0).threads() >= 1);
     cpu::DeviceOptions options;
     options.parallelFor = [](int count, const std::function<void(int)>& body) {
-        for (int i = 0; i < count; ++i)
-            body(i);
+        for (int i = 0; i < count; ++i) body(i);
     };
     auto device = cpu::Device::create(options);
     REQUIRE(device);
@@ -195,16 +192,14 @@ TEST_CASE("the same bits for any number of threads, and for an engine's parallel
         CopyFrame frame(extent);
         auto other = deviceFor(cpu::Isa::automatic, threads).compile(copyPlan(extent));
         REQUIRE(other);
-        for (int run = 0; run < 3; ++run)
-            REQUIRE(other->record(frame.inputs()));
+        for (int run = 0; run < 3; ++run) REQUIRE(other->record(frame.inputs()));
         CHECK(sameBits(frame.result, reference.result));
     }
     cpu::DeviceOptions options = withTestKernels();
     int calls = 0;
     options.parallelFor = [&calls](int count, const std::function<void(int)>& body) {
         ++calls;
-        for (int i = count - 1; i >= 0; --i)
-            body(i);
+        for (int i = count - 1; i >= 0; --i) body(i);
     };
     CopyFrame frame(extent);
     auto reversed = cpu::Device::create(options)->compile(copyPlan(extent));
@@ -243,8 +238,7 @@ TEST_CASE("timings: a pass each where they were asked for, and none otherwise") 
         if (wanted) {
             CHECK(program->timings()[0].label == "copy");
             CHECK(program->timings()[1].label == "access");
-            for (const PassTiming& t : program->timings())
-                CHECK(t.milliseconds >= 0.0);
+            for (const PassTiming& t : program->timings()) CHECK(t.milliseconds >= 0.0);
         }
     }
 }
@@ -257,8 +251,7 @@ TEST_CASE("transients are read from within the callback behind each pass") {
     std::vector<float> read;
     program->onPass([&](int pass) {
         passes.push_back(pass);
-        if (pass == 0)
-            read = *program->readTransient("source");
+        if (pass == 0) read = *program->readTransient("source");
     });
     REQUIRE(program->record(frame.inputs()));
     CHECK(passes == std::vector<int>{0, 1});
@@ -328,8 +321,7 @@ TEST_CASE("plans too large for the machine end in an error") {
     MESSAGE("compiling it is left out: sanitizers end the process where an allocation is as large");
 #else
     const auto program = device.compile(plan);
-    if (!program)
-        CHECK(program.error().code == ErrorCode::outOfMemory);
+    if (!program) CHECK(program.error().code == ErrorCode::outOfMemory);
 #endif
 }
 
@@ -349,8 +341,7 @@ TEST_CASE("programs of one device run from several threads at once") {
                     ++right;
             }
         });
-    for (std::thread& t : threads)
-        t.join();
+    for (std::thread& t : threads) t.join();
     CHECK(right == 80);
 }
 

@@ -30,8 +30,7 @@ double sumOfFactors(cpu::Isa isa, int mode, const std::vector<Patch>& patches) {
     Picture first(extent, 4), second(extent, 4);
     for (size_t i = 0; i < size_t(extent.width) * size_t(extent.height); ++i) {
         first.values[4 * i + 2] = 1.0f;
-        if (i >= patches.size())
-            continue;
+        if (i >= patches.size()) continue;
         const Patch& p = patches[i];
         const double r = glm::length(p.position);
         first.values[4 * i] = float(std::max(p.position.z / r, 0.0));
@@ -40,8 +39,7 @@ double sumOfFactors(cpu::Isa isa, int mode, const std::vector<Patch>& patches) {
     }
     const Picture factors = lightMath(isa, mode, first, second);
     double sum = 0.0;
-    for (size_t i = 0; i < patches.size(); ++i)
-        sum += factors.values[4 * i];
+    for (size_t i = 0; i < patches.size(); ++i) sum += factors.values[4 * i];
     return sum;
 }
 
@@ -163,8 +161,7 @@ TEST_CASE("texels of a level come out of their images as they went in") {
     Picture first({100, 3}, 4), second({100, 3}, 4);
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 n = glm::normalize(glm::dvec3(std::sin(i), std::cos(3 * i), std::sin(2 * i + 1)));
-        for (size_t k = 0; k < 3; ++k)
-            first.values[size_t(4 * i) + k] = float(n[int(k)]);
+        for (size_t k = 0; k < 3; ++k) first.values[size_t(4 * i) + k] = float(n[int(k)]);
         first.values[size_t(4 * i + 3)] = 0.01f * float(i + 1);
         second.values[size_t(4 * i)] =
             std::pow(10.0f, -16.0f + 0.09f * float(i)); // areas from 1e-16 to 1e10 m^2
@@ -218,10 +215,8 @@ TEST_CASE(
             CHECK((w.at(i, 0, 0) >= 0.0f && w.at(i, 0, 0) <= 1.0f + share));
             CHECK((w.at(i, 2, 0) >= 0.0f && w.at(i, 2, 0) < share));
             // Falls with the distance, and rises with the cosine.
-            if (i > 0)
-                CHECK(w.at(i, 0, 0) <= w.at(i - 1, 0, 0));
-            if (i > 0)
-                CHECK(w.at(i, 1, 0) >= w.at(i - 1, 1, 0));
+            if (i > 0) CHECK(w.at(i, 0, 0) <= w.at(i - 1, 0, 0));
+            if (i > 0) CHECK(w.at(i, 1, 0) >= w.at(i - 1, 1, 0));
         }
     }
 }

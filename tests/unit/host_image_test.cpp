@@ -33,8 +33,7 @@ const Layout layouts[] = {
 float halfValue(uint16_t h) {
     const int exponent = h >> 10 & 31, mantissa = h & 1023;
     const float sign = h & 0x8000 ? -1.0f : 1.0f;
-    if (exponent == 31)
-        return mantissa ? std::numeric_limits<float>::quiet_NaN() : sign * INFINITY;
+    if (exponent == 31) return mantissa ? std::numeric_limits<float>::quiet_NaN() : sign * INFINITY;
     return sign *
            (exponent ? std::ldexp(float(1024 + mantissa), exponent - 25) : std::ldexp(float(mantissa), -24));
 }
@@ -74,10 +73,8 @@ struct HostMemory {
     // The half of index h, or its value.
     void writeHalf(int x, int y, int c, uint16_t h) {
         const float f = halfValue(h);
-        if (image.scalar == cpu::Scalar::float32)
-            std::memcpy(at(x, y, c), &f, 4);
-        else
-            std::memcpy(at(x, y, c), &h, 2);
+        if (image.scalar == cpu::Scalar::float32) std::memcpy(at(x, y, c), &f, 4);
+        else std::memcpy(at(x, y, c), &h, 2);
     }
     // Bytes that no texel covers keep the guard's pattern.
     bool guarded() {
@@ -88,16 +85,13 @@ struct HostMemory {
                 for (int c = 0; c < image.channels; ++c)
                     std::memset(rest.data() + (at(x, y, c) - bytes.data()), int(guard), size);
         for (std::byte b : rest)
-            if (b != guard)
-                return false;
+            if (b != guard) return false;
         return true;
     }
 };
 
 // Half floats that are finite, ever another.
-uint16_t someHalf(int x, int y, int c) {
-    return uint16_t((x * 4099 + y * 517 + c * 12289 + 1) % 0x7c00);
-}
+uint16_t someHalf(int x, int y, int c) { return uint16_t((x * 4099 + y * 517 + c * 12289 + 1) % 0x7c00); }
 
 // Copies the host's image to another one by way of a kernel.
 void copyThrough(const cpu::Device& device, HostMemory& from, HostMemory& to) {
@@ -125,8 +119,7 @@ void checkCopy(cpu::Isa isa, const Layout& from, const Layout& to, Extent2D exte
     HostMemory source(from, extent, channelsIn), result(to, extent, channelsOut);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x)
-            for (int c = 0; c < channelsIn; ++c)
-                source.writeHalf(x, y, c, someHalf(x, y, c));
+            for (int c = 0; c < channelsIn; ++c) source.writeHalf(x, y, c, someHalf(x, y, c));
     copyThrough(deviceFor(isa), source, result);
     bool same = true;
     for (int y = 0; y < extent.height; ++y)
@@ -156,8 +149,7 @@ TEST_CASE("host images: absent channels read as zero, and writes to them are dro
     for (cpu::Isa isa : cpu::availableIsas())
         for (const Layout& layout : layouts)
             for (int in = 1; in <= 4; ++in)
-                for (int out = 1; out <= 4; ++out)
-                    checkCopy(isa, layout, layout, {19, 2}, in, out);
+                for (int out = 1; out <= 4; ++out) checkCopy(isa, layout, layout, {19, 2}, in, out);
 }
 
 TEST_CASE("host images: halves are rounded to the nearest, halfway to even") {
@@ -172,16 +164,14 @@ TEST_CASE("host images: halves are rounded to the nearest, halfway to even") {
             const float middle = 0.5f * (low + high);
             const float values[4] = {-low, middle, std::nextafter(middle, 0.0f),
                                      std::nextafter(middle, 1e6f)};
-            for (int c = 0; c < 4; ++c)
-                std::memcpy(source.at(i % 1024, i / 1024, c), &values[c], 4);
+            for (int c = 0; c < 4; ++c) std::memcpy(source.at(i % 1024, i / 1024, c), &values[c], 4);
         }
         copyThrough(deviceFor(isa), source, result);
         int wrong = 0;
         for (int i = 0; i < 1024 * 31; ++i) {
             const float low = halfValue(uint16_t(i)), high = halfValue(uint16_t(i + 1));
             const float want[4] = {-low, i % 2 == 0 ? low : high, low, high};
-            for (int c = 0; c < 4; ++c)
-                wrong += result.read(i % 1024, i / 1024, c) == want[c] ? 0 : 1;
+            for (int c = 0; c < 4; ++c) wrong += result.read(i % 1024, i / 1024, c) == want[c] ? 0 : 1;
         }
         INFO(std::string(cpu::name(isa)));
         CHECK(wrong == 0);
@@ -193,17 +183,14 @@ TEST_CASE("host images: halves that are no numbers, infinite, or too large") {
     const Layout floats{"floats", true, false}, halves{"halves", false, true};
     for (cpu::Isa isa : cpu::availableIsas()) {
         HostMemory source(floats, {33, 1}, 1), half(halves, {33, 1}, 1), result(floats, {33, 1}, 1);
-        for (int x = 0; x < 33; ++x)
-            std::memcpy(source.at(x, 0, 0), &values[x % 8], 4);
+        for (int x = 0; x < 33; ++x) std::memcpy(source.at(x, 0, 0), &values[x % 8], 4);
         copyThrough(deviceFor(isa), source, half);
         copyThrough(deviceFor(isa), half, result);
         for (int x = 0; x < 33; ++x) {
             const float want[] = {INFINITY, -INFINITY, NAN, INFINITY, -INFINITY, 65504.0f, 0.0f, -0.0f};
             CAPTURE(x % 8);
-            if (x % 8 == 2)
-                CHECK(std::isnan(result.read(x, 0, 0)));
-            else
-                CHECK(result.read(x, 0, 0) == want[x % 8]);
+            if (x % 8 == 2) CHECK(std::isnan(result.read(x, 0, 0)));
+            else CHECK(result.read(x, 0, 0) == want[x % 8]);
         }
     }
 }

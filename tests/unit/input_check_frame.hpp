@@ -75,8 +75,7 @@ inline CheckFrame correctFrame(const GBufferConventions& c, Extent2D extent) {
                 f.radiance.at(x, y, k) = albedoAt(x, y, k) * scene.radiance.at(x, y, k);
                 f.lit.at(x, y, k) = 1.5f * f.radiance.at(x, y, k);
             }
-            if (distance.at(x, y, 0) == 0.0f)
-                continue;
+            if (distance.at(x, y, 0) == 0.0f) continue;
             const glm::vec2 here(float(x) + 0.5f, float(y) + 0.5f);
             const glm::vec2 there =
                 projected(c, f.camera, f.previousCamera, extent, here, distance.at(x, y, 0));
@@ -117,8 +116,7 @@ inline std::string sentences(const std::vector<InputFinding>& findings) {
 
 inline std::set<std::string> problems(const std::vector<InputFinding>& findings) {
     std::set<std::string> names;
-    for (const InputFinding& finding : findings)
-        names.insert(name(finding.problem));
+    for (const InputFinding& finding : findings) names.insert(name(finding.problem));
     return names;
 }
 

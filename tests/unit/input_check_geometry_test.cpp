@@ -38,8 +38,7 @@ void changeNormals(CheckFrame& f, const std::function<glm::vec3(glm::vec3)>& cha
     for (size_t i = 0; i < f.normal.values.size(); i += 3) {
         float* n = &f.normal.values[i];
         const glm::vec3 changed = change({n[0], n[1], n[2]});
-        for (int k = 0; k < 3; ++k)
-            n[k] = changed[k];
+        for (int k = 0; k < 3; ++k) n[k] = changed[k];
     }
 }
 
@@ -69,8 +68,7 @@ TEST_CASE("normals that are not unit") {
     }
     // A few, as after filtering, are nobody's concern.
     CheckFrame f = correctFrame({}, extent);
-    for (int x = 0; x < extent.width; ++x)
-        f.normal.at(x, 20, 0) *= 1.5f;
+    for (int x = 0; x < extent.width; ++x) f.normal.at(x, 20, 0) *= 1.5f;
     checkFound(f, {});
 }
 
@@ -143,8 +141,7 @@ TEST_CASE("rows that run the other way, and a camera that is turned round") {
         checkFound(f, {"normalsFlipped"}, "conventions.firstRow");
         CheckFrame g = frameWithoutMotion(c);
         const glm::mat3 inverse = glm::transpose(glm::mat3(g.camera.view));
-        for (int i = 0; i < 3; ++i)
-            g.camera.view[i] = glm::vec4(inverse[i], 0.0f);
+        for (int i = 0; i < 3; ++i) g.camera.view[i] = glm::vec4(inverse[i], 0.0f);
         // In left-handed view space the mirror is part of the matrix, and comes to lie on the wrong side.
         checkFound(g, {"normalsSpace"}, "the inverse of camera.view");
     }
@@ -179,14 +176,12 @@ TEST_CASE("a camera that contradicts the conventions is a finding in its own wor
 TEST_CASE("device depth that runs the other way") {
     for (const GBufferConventions& c : someConventions(DepthEncoding::device)) {
         CheckFrame f = frameWithoutMotion(c);
-        for (float& d : f.depth.values)
-            d = 1.0f - d;
+        for (float& d : f.depth.values) d = 1.0f - d;
         checkFound(f, {"depthDirection"});
         // Normals that say nothing: the sky alone gives it away.
         const float cleared = c.depthDirection == DepthDirection::forward ? 0.0f : 1.0f;
         CheckFrame g = frameWithoutMotion(c);
-        for (int i = 0; i < 100; ++i)
-            g.depth.values[size_t(i)] = cleared;
+        for (int i = 0; i < 100; ++i) g.depth.values[size_t(i)] = cleared;
         checkFound(g, {"depthDirection"}, "that is the sky");
     }
 }
@@ -198,16 +193,14 @@ TEST_CASE("distances in place of device depth") {
         checkFound(f, {"depthOutOfRange", "depthEncoding"}, "DepthEncoding::planar");
         if (c.projection == Projection::orthographic)
             continue; // there, distances over the far plane's are device depth but for an offset
-        for (float& d : f.depth.values)
-            d /= 40.0f;
+        for (float& d : f.depth.values) d /= 40.0f;
         checkFound(f, {"depthEncoding"}, "divided by the far plane's");
     }
 }
 
 TEST_CASE("device depth of the other range, where the projection is orthographic") {
     for (const GBufferConventions& c : someConventions(DepthEncoding::device)) {
-        if (c.projection != Projection::orthographic)
-            continue;
+        if (c.projection != Projection::orthographic) continue;
         CheckFrame f = frameWithoutMotion(c);
         f.settings.conventions.depthRange =
             c.depthRange == DepthRange::zeroToOne ? DepthRange::minusOneToOne : DepthRange::zeroToOne;
@@ -225,8 +218,7 @@ TEST_CASE("device depth in place of distances") {
         INFO(sentences(findings));
         CHECK(problems(findings).contains("depthEncoding"));
         CHECK(sentences(findings).find("DepthEncoding::device") != std::string::npos);
-        for (float& d : f.depth.values)
-            d = 1.0f - d;
+        for (float& d : f.depth.values) d = 1.0f - d;
         CHECK(problems(findingsOf(f, deviceFor(cpu::Isa::automatic))).contains("depthEncoding"));
     }
 }
@@ -236,11 +228,9 @@ TEST_CASE("distances along rays in place of distances along the axis") {
         GBufferConventions c;
         c.projection = projection;
         CheckFrame f = frameWithoutMotion(c);
-        if (projection == Projection::orthographic)
-            continue; // all rays are parallel: both are one
+        if (projection == Projection::orthographic) continue; // all rays are parallel: both are one
         for (int y = 0; y < extent.height; ++y)
-            for (int x = 0; x < extent.width; ++x)
-                f.depth.at(x, y, 0) *= rayLength(f, x, y);
+            for (int x = 0; x < extent.width; ++x) f.depth.at(x, y, 0) *= rayLength(f, x, y);
         checkFound(f, {"depthEncoding"}, "along each pixel's ray");
     }
 }
@@ -251,8 +241,7 @@ TEST_CASE("distances with a minus sign, or in another unit") {
         c.projection = projection;
         const auto scaled = [&](float factor) {
             CheckFrame f = frameWithoutMotion(c);
-            for (float& d : f.depth.values)
-                d *= factor;
+            for (float& d : f.depth.values) d *= factor;
             return f;
         };
         CheckFrame negative = scaled(-1.0f), millimetres = scaled(1000.0f), kilometres = scaled(1e-3f),
@@ -270,8 +259,7 @@ TEST_CASE("distances with a minus sign, or in another unit") {
     f.camera.projection[2][2] = -1.0f;
     f.camera.projection[3][2] = -0.02f; // near plane at 1 cm, none afar
     checkFound(f, {});
-    for (float& d : f.depth.values)
-        d *= 1000.0f;
+    for (float& d : f.depth.values) d *= 1000.0f;
     checkFound(f, {"depthUnits"}, "times the near plane's distance");
 }
 

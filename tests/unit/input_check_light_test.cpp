@@ -18,8 +18,7 @@ void checkFound(CheckFrame& f, const Names& expected, const std::string& part = 
 }
 
 void scale(Picture& p, float factor) {
-    for (float& v : p.values)
-        v *= factor;
+    for (float& v : p.values) v *= factor;
 }
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
@@ -63,8 +62,7 @@ TEST_CASE("light that is negative, clipped, missing, or of another order of magn
     scale(f.lit, 0.0f);
     checkFound(f, {"radianceBlack", "litBlack"});
     f = right;
-    for (float& v : f.radiance.values)
-        v = std::min(v * 1e5f, 65504.0f);
+    for (float& v : f.radiance.values) v = std::min(v * 1e5f, 65504.0f);
     const Names clipped = problems(findingsOf(f, deviceFor(cpu::Isa::automatic)));
     CHECK(clipped.contains("radianceClipped"));
     CHECK(clipped.contains("radianceUnits"));
@@ -92,8 +90,7 @@ TEST_CASE("radiance without albedo, or with too much of it") {
     CheckFrame twice = changeRadiance([](float l, float a) { return l * a; });
     checkFound(twice, {"radianceAlbedoTwice"});
     CheckFrame encoded = right;
-    for (float& a : encoded.albedo.values)
-        a = std::pow(a, 1.0f / 2.2f);
+    for (float& a : encoded.albedo.values) a = std::pow(a, 1.0f / 2.2f);
     checkFound(encoded, {"radianceAlbedoTwice"}, "sRGB");
     // A mirror's reflection on everything: where albedo is nearly 0, there is little else.
     CheckFrame specular = changeRadiance([](float l, float a) { return l + 0.5f * l / a; });
@@ -120,8 +117,7 @@ TEST_CASE("motion of another sign, axis or unit") {
         const float rows = c.firstRow == FirstRow::top ? -1.0f : 1.0f;
         const auto times = [&](glm::vec2 factor) {
             CheckFrame f = right;
-            for (size_t i = 0; i < f.motion.values.size(); ++i)
-                f.motion.values[i] *= factor[int(i % 2)];
+            for (size_t i = 0; i < f.motion.values.size(); ++i) f.motion.values[i] *= factor[int(i % 2)];
             return f;
         };
         CheckFrame negated = times({-1, -1}), mirrored = times({1, -1}), coordinates = times(1.0f / size),
@@ -156,13 +152,11 @@ TEST_CASE("motion that contradicts a scene that stands still") {
     // A tenth of the picture moves by itself: nothing to say.
     f = right;
     for (int y = 0; y < extent.height; ++y)
-        for (int x = 20; x < 26; ++x)
-            f.motion.at(x, y, 0) += 9.0f;
+        for (int x = 20; x < 26; ++x) f.motion.at(x, y, 0) += 9.0f;
     checkFound(f, {});
     // Depth in another unit than the camera's translation.
     f = right;
-    for (float& d : f.depth.values)
-        d *= 5.0f;
+    for (float& d : f.depth.values) d *= 5.0f;
     CHECK(problems(findingsOf(f, deviceFor(cpu::Isa::automatic))).contains("motionContradictsScene"));
 }
 

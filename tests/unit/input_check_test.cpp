@@ -28,8 +28,7 @@ TEST_CASE("pixels are counted once each, in pictures of every shape") {
                        Extent2D{517, 131}, Extent2D{7, 4096}}) {
         CheckFrame f = correctFrame({}, e);
         int surfaces = 0;
-        for (float d : f.depth.values)
-            surfaces += d > 0.0f ? 1 : 0;
+        for (float d : f.depth.values) surfaces += d > 0.0f ? 1 : 0;
         const InputStatistics s = measure(f, device);
         CHECK(s[detail::ValueStatistic::pixels] == float(e.width * e.height));
         CHECK(s[detail::ValueStatistic::surfaces] == float(surfaces));
@@ -41,8 +40,7 @@ TEST_CASE("bumps in normals, and depth in half floats, are no mistakes") {
     const cpu::Device device = deviceFor(cpu::Isa::automatic);
     uint32_t state = 7;
     for (const GBufferConventions& c : everyConvention()) {
-        if (c.normalEncoding == NormalEncoding::unsignedUnit)
-            continue;
+        if (c.normalEncoding == NormalEncoding::unsignedUnit) continue;
         CheckFrame f = correctFrame(c, {97, 61});
         for (size_t i = 0; i < f.normal.values.size(); i += 3) {
             glm::vec3 n(f.normal.values[i], f.normal.values[i + 1], f.normal.values[i + 2]);
@@ -51,12 +49,10 @@ TEST_CASE("bumps in normals, and depth in half floats, are no mistakes") {
                 n[k] += 1.2f * (float(state >> 8) / float(1 << 24) - 0.5f); // tilts of up to 40 degrees
             }
             n = glm::normalize(n);
-            for (int k = 0; k < 3; ++k)
-                f.normal.values[i + size_t(k)] = n[k];
+            for (int k = 0; k < 3; ++k) f.normal.values[i + size_t(k)] = n[k];
         }
         if (c.depthEncoding == DepthEncoding::planar)
-            for (float& d : f.depth.values)
-                d = glm::unpackHalf1x16(glm::packHalf1x16(d));
+            for (float& d : f.depth.values) d = glm::unpackHalf1x16(glm::packHalf1x16(d));
         const auto findings = findingsOf(f, device);
         CHECK_MESSAGE(findings.empty(), sentences(findings));
     }
@@ -83,8 +79,7 @@ TEST_CASE("every instruction set measures what the scalar one does") {
 TEST_CASE("the same bits for any number of threads") {
     CheckFrame f = correctFrame({}, {301, 133});
     const InputStatistics one = measure(f, deviceFor(cpu::Isa::automatic, 1));
-    for (int threads : {2, 3, 7})
-        CHECK(measure(f, deviceFor(cpu::Isa::automatic, threads)) == one);
+    for (int threads : {2, 3, 7}) CHECK(measure(f, deviceFor(cpu::Isa::automatic, threads)) == one);
 }
 
 TEST_CASE("images that are not handed in are not asked for") {
@@ -121,14 +116,11 @@ TEST_CASE("half floats, as GPUs store them, are right too") {
         c.normalEncoding = variant & 2 ? NormalEncoding::unsignedUnit : NormalEncoding::signedUnit;
         CheckFrame f = correctFrame(c, {193, 109});
         for (Picture* p : {&f.normal, &f.albedo, &f.radiance, &f.lit, &f.motion})
-            for (float& v : p->values)
-                v = glm::unpackHalf1x16(glm::packHalf1x16(v));
+            for (float& v : p->values) v = glm::unpackHalf1x16(glm::packHalf1x16(v));
         // 8 bits, as many G-buffers have.
-        for (float& v : f.albedo.values)
-            v = std::round(v * 255.0f) / 255.0f;
+        for (float& v : f.albedo.values) v = std::round(v * 255.0f) / 255.0f;
         if (c.normalEncoding == NormalEncoding::unsignedUnit)
-            for (float& v : f.normal.values)
-                v = std::round(v * 255.0f) / 255.0f;
+            for (float& v : f.normal.values) v = std::round(v * 255.0f) / 255.0f;
         const auto findings = findingsOf(f, device);
         CHECK_MESSAGE(findings.empty(), sentences(findings));
     }
@@ -145,8 +137,7 @@ TEST_CASE("G-buffers of random bits leave statistics that are numbers, and sente
         }
     for (cpu::Isa isa : cpu::availableIsas()) {
         const InputStatistics s = measure(f, deviceFor(isa));
-        for (float v : s)
-            CHECK(std::isfinite(v));
+        for (float v : s) CHECK(std::isfinite(v));
         CHECK_FALSE(examineInputs(f.settings, f.camera, s).empty());
     }
 }

@@ -106,8 +106,7 @@ TEST_CASE("reaches: true wherever a texel lies inside") {
                     some = some || result.at(x, y, 0) != 0.0f;
                 }
             // A whole image away, lanes of any number reach nothing.
-            if (o.x == -1000000 || o.x == 40 || o.y == -5)
-                CHECK_FALSE(some);
+            if (o.x == -1000000 || o.x == 40 || o.y == -5) CHECK_FALSE(some);
         }
 }
 

@@ -24,8 +24,7 @@ std::vector<float> hardValues() {
 
 Operands withoutMinusZero(Operands o) {
     for (float& x : o.x.values)
-        if (x == 0.0f)
-            x = 0.0f;
+        if (x == 0.0f) x = 0.0f;
     return o;
 }
 
@@ -51,22 +50,18 @@ void checkExactly(int operation, const Operands& operands, const Function& expec
     }
 }
 
-float truth(bool b) {
-    return b ? 1.0f : 0.0f;
-}
+float truth(bool b) { return b ? 1.0f : 0.0f; }
 
 } // namespace
 
 TEST_CASE("Real: the operators of arithmetic") {
     const Operands o = everyPair(hardValues());
-    for (int op : {opAdd, opAddTo})
-        checkExactly(op, o, [](float x, float y, float) { return x + y; });
+    for (int op : {opAdd, opAddTo}) checkExactly(op, o, [](float x, float y, float) { return x + y; });
     for (int op : {opSubtract, opSubtractFrom})
         checkExactly(op, o, [](float x, float y, float) { return x - y; });
     for (int op : {opMultiply, opMultiplyBy})
         checkExactly(op, o, [](float x, float y, float) { return x * y; });
-    for (int op : {opDivide, opDivideBy})
-        checkExactly(op, o, [](float x, float y, float) { return x / y; });
+    for (int op : {opDivide, opDivideBy}) checkExactly(op, o, [](float x, float y, float) { return x / y; });
     checkExactly(opNegate, o, [](float x, float, float) { return -x; });
 }
 
@@ -159,14 +154,12 @@ TEST_CASE("vectors: GLSL's functions") {
             const glm::vec3 w =
                 glm::cross(u, v) + glm::min(u, v) * 2.0f + glm::max(u, 0.25f) + glm::vec3(1, 2, 3);
             // Operands are small multiples of 1/32: all but the root is exact.
-            for (int k = 0; k < 3; ++k)
-                CHECK(result.values[4 * i + size_t(k)] == w[k]);
+            for (int k = 0; k < 3; ++k) CHECK(result.values[4 * i + size_t(k)] == w[k]);
             const float dots = glm::dot(u, v) + a[0] * b[0] + a[1] * b[1];
             CHECK(result.values[4 * i + 3] == doctest::Approx(dots + glm::length(u)).epsilon(1e-6));
             const float want[4] = {c[0] > 0 ? a[1] : b[1], c[1] > 0 ? a[3] : b[3], c[1] > 0 ? a[0] : b[0],
                                    c[2] > 0 ? a[3] : b[3]};
-            for (size_t k = 0; k < 4; ++k)
-                CHECK(selected.values[4 * i + k] == want[k]);
+            for (size_t k = 0; k < 4; ++k) CHECK(selected.values[4 * i + k] == want[k]);
         }
     }
 }

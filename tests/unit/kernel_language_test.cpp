@@ -7,8 +7,7 @@ namespace {
 
 int collatzSteps(int n) {
     int steps = 0;
-    for (; n > 1; n = n % 2 ? 3 * n + 1 : n / 2)
-        ++steps;
+    for (; n > 1; n = n % 2 ? 3 * n + 1 : n / 2) ++steps;
     return steps;
 }
 
@@ -29,8 +28,7 @@ const std::vector<TableEntry> threeEntries = {
 
 TEST_CASE("a loop runs on for the lanes that have not finished") {
     Picture start({100, 3}, 1);
-    for (size_t i = 0; i < start.values.size(); ++i)
-        start.values[i] = float(i * 37 % 301);
+    for (size_t i = 0; i < start.values.size(); ++i) start.values[i] = float(i * 37 % 301);
     for (cpu::Isa isa : cpu::availableIsas()) {
         const Picture result = language(isa, {}, start, threeEntries);
         for (size_t i = 0; i < start.values.size(); ++i)

@@ -58,8 +58,7 @@ inline bool sameBits(const Picture& a, const Picture& b) {
 // A texel's number as its value: every one differs.
 inline Picture numbered(Extent2D extent, int channels = 4) {
     Picture p(extent, channels);
-    for (size_t i = 0; i < p.values.size(); ++i)
-        p.values[i] = float(i + 1);
+    for (size_t i = 0; i < p.values.size(); ++i) p.values[i] = float(i + 1);
     return p;
 }
 

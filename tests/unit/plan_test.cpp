@@ -10,9 +10,7 @@
 namespace rebound {
 namespace {
 
-std::string numbered(std::string name, int i) {
-    return name.append(std::to_string(i));
-}
+std::string numbered(std::string name, int i) { return name.append(std::to_string(i)); }
 
 // input -> first -> a -> second -> output
 Plan smallPlan() {
@@ -80,8 +78,7 @@ bool aliveTogether(const Plan& plan, int a, int b) {
                 }
             return before && after;
         };
-        if (alive(a) && alive(b))
-            return true;
+        if (alive(a) && alive(b)) return true;
     }
     return false;
 }
@@ -186,16 +183,14 @@ TEST_CASE("no two transients that are alive together overlap, in plans at random
             size_t sum = 0, largest = 0;
             for (int a = 0; a < int(plan.resources.size()); ++a) {
                 const size_t beginA = layout.offsets[size_t(a)], endA = beginA + sizes[size_t(a)];
-                if (!aliveTogether(plan, a, a))
-                    continue;
+                if (!aliveTogether(plan, a, a)) continue;
                 CHECK(beginA % alignment == 0);
                 CHECK(endA <= layout.size);
                 sum += (sizes[size_t(a)] + alignment - 1) / alignment * alignment;
                 largest = std::max(largest, sizes[size_t(a)]);
                 for (int b = 0; b < a; ++b) {
                     const size_t beginB = layout.offsets[size_t(b)], endB = beginB + sizes[size_t(b)];
-                    if (aliveTogether(plan, a, b))
-                        CHECK((endA <= beginB || endB <= beginA));
+                    if (aliveTogether(plan, a, b)) CHECK((endA <= beginB || endB <= beginA));
                 }
             }
             CHECK(layout.sizeUnshared == sum);

@@ -68,8 +68,7 @@ std::set<std::string> imagesOf(const RecordedFrame& frame, Access access) {
     std::set<std::string> labels;
     for (const auto& pass : frame.passes)
         for (const auto& b : pass.bindings)
-            if (b.access == access && !b.image.empty())
-                labels.insert(b.image);
+            if (b.access == access && !b.image.empty()) labels.insert(b.image);
     return labels;
 }
 
@@ -114,8 +113,7 @@ TEST_CASE("recording: one gather a level, each at half the resolution of the one
             for (int k = 0, d = divisor; k < levels; ++k, d *= 2)
                 expected.insert({(641 + d - 1) / d, (359 + d - 1) / d});
             for (const auto& pass : frame.passes)
-                if (pass.kernel == "screen_indirect/gather")
-                    seen.insert({pass.grid.width, pass.grid.height});
+                if (pass.kernel == "screen_indirect/gather") seen.insert({pass.grid.width, pass.grid.height});
             CHECK(seen == expected);
         }
 }
@@ -156,8 +154,7 @@ TEST_CASE("recording: every variant's transients lie apart while both are in use
                 for (const auto& pass : frame.passes)
                     for (const auto& b : pass.bindings) {
                         const auto i = size_t(plan->find(b.resource));
-                        if (plan->resources[i].kind == ResourceKind::transient)
-                            transients[i] = b;
+                        if (plan->resources[i].kind == ResourceKind::transient) transients[i] = b;
                     }
                 for (size_t a = 0; a < transients.size(); ++a)
                     for (size_t b = 0; b < a; ++b)
@@ -181,8 +178,7 @@ TEST_CASE("recording: memory is known before it is allocated, and given back") {
         CHECK(program.memoryUse().total() == before.total());
         CHECK(device.log().liveBytes == before.total());
         size_t allocated = 0;
-        for (const auto& a : device.log().allocations)
-            allocated += a.size;
+        for (const auto& a : device.log().allocations) allocated += a.size;
         CHECK(allocated == before.total());
     }
     CHECK(device.log().liveBytes == 0);

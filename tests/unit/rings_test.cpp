@@ -15,8 +15,7 @@ namespace {
 
 double sumOfWeights(const std::vector<RingTexel>& texels) {
     double sum = 0.0;
-    for (const RingTexel& t : texels)
-        sum += t.weight;
+    for (const RingTexel& t : texels) sum += t.weight;
     return sum;
 }
 
@@ -29,12 +28,10 @@ TEST_CASE("a disc holds the texels within its radius but for the receiver, a rin
     for (float radius : {1.0f, 3.0f, 12.5f, 40.0f}) {
         int inside = 0;
         for (int y = -50; y <= 50; ++y)
-            for (int x = -50; x <= 50; ++x)
-                inside += float(x * x + y * y) <= radius * radius ? 1 : 0;
+            for (int x = -50; x <= 50; ++x) inside += float(x * x + y * y) <= radius * radius ? 1 : 0;
         const auto disc = ringTexels({radius, true, false}, endless);
         CHECK(int(disc.size()) == inside - 1);
-        for (const RingTexel& t : disc)
-            CHECK(t.weight == 1.0f);
+        for (const RingTexel& t : disc) CHECK(t.weight == 1.0f);
     }
     // The ring and the finer level's disc, of texels a quarter as large, together cover this level's disc.
     for (float radius : {8.0f, 40.0f}) {
@@ -76,15 +73,13 @@ TEST_CASE("samples stand for all texels: their weights add up to them") {
                 // Sums of floats.
                 CHECK(sumOfWeights(pattern) == doctest::Approx(sumOfWeights(texels)).epsilon(1e-5));
                 std::set<std::pair<int, int>> among, offsets;
-                for (const RingTexel& t : texels)
-                    among.insert({t.offset.x, t.offset.y});
+                for (const RingTexel& t : texels) among.insert({t.offset.x, t.offset.y});
                 for (const RingTexel& t : pattern) {
                     CHECK(t.weight > 0.0f);
                     CHECK(among.contains({t.offset.x, t.offset.y}));
                     CHECK(offsets.insert({t.offset.x, t.offset.y}).second);
                 }
-                if (texels.size() <= size_t(samples))
-                    CHECK(pattern.size() == texels.size());
+                if (texels.size() <= size_t(samples)) CHECK(pattern.size() == texels.size());
             }
 }
 

@@ -58,8 +58,7 @@ TEST_CASE("settings at the ends of their ranges are accepted") {
                 for (float radius : {1.0f, 1024.0f})
                     for (float cosine : {0.001f, 1.0f}) {
                         // The widest ring takes its time to choose samples from.
-                        if (radius > 1.0f && (e.height > 1 || levels > 1 || samples > 4))
-                            continue;
+                        if (radius > 1.0f && (e.height > 1 || levels > 1 || samples > 4)) continue;
                         s.resolution = e;
                         s.levels = levels;
                         s.samplesPerLevel = samples;
@@ -132,10 +131,8 @@ TEST_CASE("the covering radius is the smallest whole one whose outermost ring sp
                 s.start = start;
                 const double w = (e.width + divisor - 1) / divisor, h = (e.height + divisor - 1) / divisor;
                 const double reach = std::ldexp(1.0, levels - 1), radius = coveringRingRadius(s);
-                if (radius < 1024.0)
-                    CHECK(radius * reach >= std::sqrt(w * w + h * h) * (1.0 - 1e-6));
-                if (radius > 1.0)
-                    CHECK((radius - 1.0) * reach < std::sqrt(w * w + h * h));
+                if (radius < 1024.0) CHECK(radius * reach >= std::sqrt(w * w + h * h) * (1.0 - 1e-6));
+                if (radius > 1.0) CHECK((radius - 1.0) * reach < std::sqrt(w * w + h * h));
                 s.ringRadius = float(radius);
                 CHECK((radius >= 1.0 && radius <= 1024.0));
             }

@@ -25,14 +25,11 @@ Frame plainFrame() {
 }
 
 Frame scaled(Frame f, float factor) {
-    for (float& v : f.radiance.values)
-        v *= factor;
+    for (float& v : f.radiance.values) v *= factor;
     return f;
 }
 
-cpu::Device fast() {
-    return deviceFor(cpu::Isa::automatic);
-}
+cpu::Device fast() { return deviceFor(cpu::Isa::automatic); }
 
 // Where reduction chooses between texels that are as good as each other but for the last bits, a few texels
 // of the coarser levels lie elsewhere, and light moves a little around them.
@@ -56,12 +53,10 @@ TEST_CASE("light adds up: that of two lights is the sum of each one's") {
     Frame left = cornerFrame(), right = cornerFrame(), both = cornerFrame();
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                (x < 30 ? right : left).radiance.at(x, y, c) = 0.0f;
+            for (int c = 0; c < 3; ++c) (x < 30 ? right : left).radiance.at(x, y, c) = 0.0f;
     const Outputs a = render(left, fast()), b = render(right, fast()), c = render(both, fast());
     Picture sum = a.indirect;
-    for (size_t i = 0; i < sum.values.size(); ++i)
-        sum.values[i] += b.indirect.values[i];
+    for (size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += b.indirect.values[i];
     // Sums of some hundred terms in single precision, in another order.
     CHECK(difference(c.indirect, sum).largest < 1e-4);
 }
@@ -140,8 +135,7 @@ TEST_CASE("a closed convex room of radiance 1 lights itself with more than nothi
         CHECK(mean(out.indirect) > 0.02);
         CHECK(mean(out.indirect) < 1.0);
         // No visibility is lost in a convex room; sampling and discs may exceed the sum of 1 by some.
-        for (float v : out.indirect.values)
-            CHECK((v >= 0.0f && v < 1.25f));
+        for (float v : out.indirect.values) CHECK((v >= 0.0f && v < 1.25f));
     }
 }
 
@@ -156,8 +150,7 @@ TEST_CASE("a pixel that is no surface or no number is as if it were empty, for a
         {"normal inf", [=](Frame& f, int x, int y) { f.normal.at(x, y, 2) = inf; }},
         {"normal zero",
          [=](Frame& f, int x, int y) {
-             for (int k = 0; k < 3; ++k)
-                 f.normal.at(x, y, k) = 0.0f;
+             for (int k = 0; k < 3; ++k) f.normal.at(x, y, k) = 0.0f;
          }},
         {"depth nan", [=](Frame& f, int x, int y) { f.depth.at(x, y, 0) = nan; }},
         {"depth inf", [=](Frame& f, int x, int y) { f.depth.at(x, y, 0) = inf; }},
@@ -205,8 +198,7 @@ TEST_CASE("nothing but sky: no indirect light, and the picture as it was") {
     for (Extent2D e : {Extent2D{1, 1}, Extent2D{61, 37}})
         for (cpu::Isa isa : cpu::availableIsas()) {
             Frame f = cornerFrame(StartResolution::quarter, 4, e);
-            for (float& d : f.depth.values)
-                d = 0.0f;
+            for (float& d : f.depth.values) d = 0.0f;
             const Outputs out = render(f, deviceFor(isa));
             CHECK(out.indirect.values == std::vector<float>(out.indirect.values.size(), 0.0f));
             CHECK(out.composed.values == f.lit.values);
@@ -222,8 +214,7 @@ TEST_CASE("pictures of every shape") {
                 f.settings.samplesPerLevel = 8;
                 const Outputs out = render(f, fast());
                 CHECK(allFinite(out.indirect));
-                for (float v : out.indirect.values)
-                    REQUIRE(v >= 0.0f);
+                for (float v : out.indirect.values) REQUIRE(v >= 0.0f);
                 CHECK(allFinite(out.composed));
             }
 }
@@ -276,8 +267,7 @@ TEST_CASE("every instruction set agrees with the scalar one") {
                 INFO(std::string(cpu::name(isa)));
                 // Reciprocals to 5e-7, some in a row; differences of nearby positions lose a hundred times
                 // that.
-                if (plain)
-                    CHECK(d.largest < 1e-3);
+                if (plain) CHECK(d.largest < 1e-3);
                 CHECK(d.average < (plain ? 1e-5 : choices));
             }
         }
@@ -293,8 +283,7 @@ TEST_CASE("the levels' contributions, each shown alone, add up to the whole") {
             for (int k = 0; k < levels; ++k) {
                 f.settings.onlyLevel = k;
                 const Outputs alone = render(f, fast());
-                for (size_t i = 0; i < sum.values.size(); ++i)
-                    sum.values[i] += alone.indirect.values[i];
+                for (size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += alone.indirect.values[i];
             }
             // Upsampling is linear: the same weights in another order of summation.
             CHECK(difference(whole.indirect, sum).largest < 1e-4);
@@ -351,21 +340,17 @@ TEST_CASE("G-buffers of random bits leave finite light, and none that is negativ
             f.settings.formFactor = round % 5 ? FormFactor::pointToDisc : FormFactor::pointToPoint;
             // A third of the pixels hold random bits, in depth, normal or radiance, or in all.
             for (size_t i = 0; i < f.depth.values.size(); ++i) {
-                if (bits() >> 16 & 2)
-                    continue;
+                if (bits() >> 16 & 2) continue;
                 auto garbage = [&] {
                     const uint32_t b = bits() ^ bits() >> 15;
                     float v;
                     std::memcpy(&v, &b, 4);
                     return v;
                 };
-                if (bits() >> 20 & 1)
-                    f.depth.values[i] = std::abs(garbage());
+                if (bits() >> 20 & 1) f.depth.values[i] = std::abs(garbage());
                 for (size_t k = 0; k < 3; ++k) {
-                    if (bits() >> 20 & 1)
-                        f.normal.values[3 * i + k] = garbage();
-                    if (bits() >> 20 & 1)
-                        f.radiance.values[3 * i + k] = garbage();
+                    if (bits() >> 20 & 1) f.normal.values[3 * i + k] = garbage();
+                    if (bits() >> 20 & 1) f.radiance.values[3 * i + k] = garbage();
                 }
             }
             const Outputs out = render(f, deviceFor(isa));
@@ -373,8 +358,7 @@ TEST_CASE("G-buffers of random bits leave finite light, and none that is negativ
             INFO(std::string(cpu::name(isa)));
             CHECK(allFinite(out.indirect));
             int negative = 0;
-            for (float v : out.indirect.values)
-                negative += v < 0.0f ? 1 : 0;
+            for (float v : out.indirect.values) negative += v < 0.0f ? 1 : 0;
             CHECK(negative == 0);
         }
 }

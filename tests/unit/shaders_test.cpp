@@ -21,8 +21,7 @@ void checkShaders(std::span<const Shader* const> shaders, std::span<const cpu::K
         for (const char* left : {"#version", "#include", "#line", "RB_", "GL_GOOGLE"})
             CHECK(s->glsl.find(left) == std::string_view::npos);
     }
-    for (const cpu::KernelEntry* k : kernels)
-        CHECK(kernelNames.insert(k->name).second);
+    for (const cpu::KernelEntry* k : kernels) CHECK(kernelNames.insert(k->name).second);
     CHECK(shaderNames == kernelNames);
 }
 
@@ -55,7 +54,8 @@ TEST_CASE("every instruction set has the same kernels, with the same slots and f
 }
 
 TEST_CASE("a shader declares the slots and features that its kernel has, and the formats of what it writes") {
-    const auto check = [](std::span<const Shader* const> shaders, std::span<const cpu::KernelEntry* const> kernels) {
+    const auto check = [](std::span<const Shader* const> shaders,
+                          std::span<const cpu::KernelEntry* const> kernels) {
         for (const cpu::KernelEntry* kernel : kernels)
             for (const Shader* shader : shaders)
                 if (shader->name == kernel->name) {
@@ -102,8 +102,7 @@ TEST_CASE("what settings plan, the device has: kernels, slots and features") {
                 s.levels = levels;
                 s.samplesPerLevel = 4;
                 s.ringRadius = 4.0f;
-                if (bit(0))
-                    s.onlyLevel = levels / 2;
+                if (bit(0)) s.onlyLevel = levels / 2;
                 auto plan = planScreenIndirect(s);
                 REQUIRE(plan);
                 const auto valid = validate(*plan);

@@ -33,8 +33,7 @@ struct Hit {
 inline Hit meetScene(glm::dvec3 origin, glm::dvec3 ray, double scale) {
     Hit hit;
     auto meet = [&](double t, glm::dvec3 normal, glm::dvec3 color) {
-        if (!(t > 0.0 && t < hit.t))
-            return;
+        if (!(t > 0.0 && t < hit.t)) return;
         const glm::dvec3 p = (origin + t * ray) / scale;
         hit = {t, normal, color * (1.0 + 0.5 * std::sin(3.0 * p.x + 2.0 * p.y + p.z))};
     };
@@ -93,8 +92,7 @@ inline Frame sceneFrame(const GBufferConventions& c, Extent2D extent, glm::mat4 
                 f.albedo.at(x, y, k) = 0.2f + 0.1f * float((x + k) % 5);
                 f.lit.at(x, y, k) = 0.01f * float((3 * x + 7 * y + k) % 100);
             }
-            if (hit.t > 30.0 * scale)
-                continue;
+            if (hit.t > 30.0 * scale) continue;
             f.depth.at(x, y, 0) = storedDepth(c, lens, hit.t);
             const glm::vec3 n = storedNormal(c, f.camera.view, glm::mat3(world) * glm::vec3(hit.normal));
             for (int k = 0; k < 3; ++k) {
@@ -130,15 +128,13 @@ inline Outputs render(Frame f, const cpu::Device& device) {
 
 inline bool allFinite(const Picture& p) {
     for (float v : p.values)
-        if (!std::isfinite(v))
-            return false;
+        if (!std::isfinite(v)) return false;
     return true;
 }
 
 inline double mean(const Picture& p) {
     double sum = 0.0;
-    for (float v : p.values)
-        sum += v;
+    for (float v : p.values) sum += v;
     return sum / double(p.values.size());
 }
 

@@ -29,8 +29,7 @@ TEST_CASE("a thread pool calls its body once for every index") {
 TEST_CASE("a thread pool hands what its body wrote to the caller, run after run") {
     ThreadPool pool(4);
     std::vector<int> values(64, 0);
-    for (int run = 0; run < 2000; ++run)
-        pool.run(int(values.size()), [&](int i) { ++values[size_t(i)]; });
+    for (int run = 0; run < 2000; ++run) pool.run(int(values.size()), [&](int i) { ++values[size_t(i)]; });
     CHECK(std::all_of(values.begin(), values.end(), [](int v) { return v == 2000; }));
 }
 
@@ -44,14 +43,12 @@ TEST_CASE("a thread pool's calls from several threads take turns") {
                 pool.run(8, [&](int) {
                     // Bodies of one caller alone: each adds its own number, and no other's may be there.
                     const int own = 1 << (8 * t);
-                    if (((inside += own) & ~(0xff << (8 * t))) != 0)
-                        ++overlaps;
+                    if (((inside += own) & ~(0xff << (8 * t))) != 0) ++overlaps;
                     inside -= own;
                     ++calls;
                 });
         });
-    for (std::thread& t : threads)
-        t.join();
+    for (std::thread& t : threads) t.join();
     CHECK(calls == 3200);
     CHECK(overlaps == 0);
 }
@@ -79,8 +76,7 @@ TEST_CASE("a thread pool's run throws what its body threw, and serves again") {
             std::atomic<int> calls{0};
             auto body = [&](int i) {
                 ++calls;
-                if (i == 7)
-                    throw std::runtime_error("seven");
+                if (i == 7) throw std::runtime_error("seven");
             };
             CHECK_THROWS_WITH_AS(pool.run(1000, body), "seven", std::runtime_error);
             CHECK(calls >= 1);
@@ -93,8 +89,7 @@ TEST_CASE("a thread pool's run throws what its body threw, and serves again") {
 
 TEST_CASE("every call of a thread pool's body may throw") {
     ThreadPool pool(4);
-    for (int round = 0; round < 50; ++round)
-        CHECK_THROWS_AS(pool.run(100, [](int i) { throw i; }), int);
+    for (int round = 0; round < 50; ++round) CHECK_THROWS_AS(pool.run(100, [](int i) { throw i; }), int);
 }
 
 } // namespace rebound::cpu

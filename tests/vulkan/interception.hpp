@@ -12,13 +12,13 @@
 namespace rebound::test {
 
 struct Interception {
-    int alive = 0;              // objects created and not destroyed, blocks of memory among them
-    int calls = 0;              // that can fail, so far
-    int failAt = -1;            // the number of the call that is to fail; -1: none
+    int alive = 0;                   // objects created and not destroyed, blocks of memory among them
+    int calls = 0;                   // that can fail, so far
+    int failAt = -1;                 // the number of the call that is to fail; -1: none
     std::optional<VkResult> failure; // that it fails with; empty: want of memory
-    std::string failed;         // the function that failed last
-    std::string missing;        // a function that the loader does not know
-    size_t cacheSize = 0;       // bytes that the last pipeline cache was begun with
+    std::string failed;              // the function that failed last
+    std::string missing;             // a function that the loader does not know
+    size_t cacheSize = 0;            // bytes that the last pipeline cache was begun with
     std::function<void(VkPhysicalDeviceProperties&)> changeProperties;
     std::function<void(VkQueueFamilyProperties&)> changeQueueFamily;
     std::function<void(VkMemoryRequirements&)> changeImageNeeds;

@@ -80,7 +80,8 @@ struct TimedProgram {
         return *std::move(program);
     }
     Result<> record() {
-        return host.context().run([&](VkCommandBuffer commands) { return program.record(commands, 0, frame.inputs); });
+        return host.context().run(
+            [&](VkCommandBuffer commands) { return program.record(commands, 0, frame.inputs); });
     }
     // Nothing is recorded, even where the host goes on and submits.
     void checkStaysLost() {
@@ -174,7 +175,8 @@ TEST_CASE("a program is refused frames once a plan's compilation has found the d
     failAt(0, VK_ERROR_DEVICE_LOST);
     checkLost(device.compile(copyPlan({33, 21})));
     earlier.checkStaysLost();
-    CHECK(earlier.frame.read("result").values == shifted(numbered(extent), {2, 1}).values); // of the frame before
+    CHECK(earlier.frame.read("result").values ==
+          shifted(numbered(extent), {2, 1}).values); // of the frame before
 }
 
 TEST_CASE("any other error leaves the device usable") {

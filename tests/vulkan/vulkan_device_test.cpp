@@ -59,12 +59,16 @@ TEST_CASE("a device is refused where what it wraps cannot do what Rebound needs"
     };
     checkRefused(vulkan::Device::create(host->options()), ErrorCode::unsupported, "does not compute");
     interception() = {};
-    interception().changeProperties = [](VkPhysicalDeviceProperties& p) { p.apiVersion = VK_MAKE_API_VERSION(0, 1, 0, 9); };
+    interception().changeProperties = [](VkPhysicalDeviceProperties& p) {
+        p.apiVersion = VK_MAKE_API_VERSION(0, 1, 0, 9);
+    };
     checkRefused(vulkan::Device::create(host->options()), ErrorCode::unsupported, "Vulkan 1.0; 1.1 or later");
-    for (const char* name : {"vkGetDeviceProcAddr", "vkCmdDispatch", "vkCreateImage", "vkSetDebugUtilsObjectNameEXT"}) {
+    for (const char* name :
+         {"vkGetDeviceProcAddr", "vkCmdDispatch", "vkCreateImage", "vkSetDebugUtilsObjectNameEXT"}) {
         interception() = {};
         interception().missing = name;
-        checkRefused(vulkan::Device::create(host->options()), ErrorCode::unsupported, std::string("knows no ") + name);
+        checkRefused(vulkan::Device::create(host->options()), ErrorCode::unsupported,
+                     std::string("knows no ") + name);
         CHECK(interception().alive == 0);
     }
     // Functions of an extension that the host does not mention are not asked for.
@@ -104,8 +108,9 @@ TEST_CASE("plans that a device refuses") {
                      [](Plan& p) { p.resources[1].format = Format::rgba16f; });
     checkRefusedPlan(device, invalidArgument, "which is r32f, through slot 2 of access",
                      [](Plan& p) { p.resources[2].format = Format::r32f; });
-    checkRefusedPlan(device, invalidArgument, "size is not that of the pass's grid",
-                     [](Plan& p) { p.passes[0].grid = {19, 5}; });
+    checkRefusedPlan(device, invalidArgument, "size is not that of the pass's grid", [](Plan& p) {
+        p.passes[0].grid = {19, 5};
+    });
     checkRefusedPlan(device, invalidArgument, "used twice", [](Plan& p) { p.passes[1].label = "copy"; });
     for (int frames : {0, -1, 9})
         checkRefused(device.compile(copyPlan(extent), {frames, nullptr, false}), invalidArgument,
@@ -120,7 +125,8 @@ TEST_CASE("plans beyond the device's limits are refused") {
         p.limits.maxUniformBufferRange = 31;
     };
     const vulkan::Device device = host->device();
-    checkRefused(device.compile(copyPlan({20, 5})), ErrorCode::unsupported, "host is 20x5; this device's images have at most 19");
+    checkRefused(device.compile(copyPlan({20, 5})), ErrorCode::unsupported,
+                 "host is 20x5; this device's images have at most 19");
     checkRefused(device.compile(copyPlan({19, 5})), ErrorCode::unsupported, "grid has 32 bytes");
 }
 
@@ -132,7 +138,8 @@ TEST_CASE("frames that a program refuses, recording nothing") {
     REQUIRE(program);
     const GpuFrame good(*host, plan, {{"host", numbered(extent)}}, {accessConstants(extent)});
     using Inputs = FrameInputs<vulkan::Image>;
-    const auto refuse = [&](const std::string& part, const std::function<void(Inputs&)>& spoil, int frame = 0) {
+    const auto refuse = [&](const std::string& part, const std::function<void(Inputs&)>& spoil,
+                            int frame = 0) {
         Inputs inputs = good.inputs;
         spoil(inputs);
         REQUIRE(host->context().run([&](VkCommandBuffer commands) -> Result<> {
@@ -150,19 +157,24 @@ TEST_CASE("frames that a program refuses, recording nothing") {
     refuse("result has no view", [](Inputs& i) { i.images[1].image.view = VK_NULL_HANDLE; });
     refuse("host is 20x4; 20x5 was expected", [](Inputs& i) { i.images[0].image.extent.height = 4; });
     refuse("result is 21x5; 20x5 was expected", [](Inputs& i) { i.images[1].image.extent.width = 21; });
-    refuse("rgba32f, was expected", [](Inputs& i) { i.images[1].image.format = VK_FORMAT_R16G16B16A16_SFLOAT; });
+    refuse("rgba32f, was expected",
+           [](Inputs& i) { i.images[1].image.format = VK_FORMAT_R16G16B16A16_SFLOAT; });
     for (VkImageLayout layout : {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_UNDEFINED})
         refuse("VK_IMAGE_LAYOUT_GENERAL was expected", [=](Inputs& i) { i.images[1].image.layout = layout; });
-    for (VkImageLayout layout : {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PREINITIALIZED,
-                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL})
+    for (VkImageLayout layout :
+         {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PREINITIALIZED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL})
         refuse("in which shaders read was expected", [=](Inputs& i) { i.images[0].image.layout = layout; });
     for (int frame : {-1, 2})
-        refuse("frame is " + std::to_string(frame) + "; 0 to 1 was expected", [](Inputs&) {}, frame);
-    checkRefused(program->record(VK_NULL_HANDLE, 0, good.inputs), ErrorCode::invalidArgument, "commands is null");
+        refuse(
+            "frame is " + std::to_string(frame) + "; 0 to 1 was expected", [](Inputs&) {}, frame);
+    checkRefused(program->record(VK_NULL_HANDLE, 0, good.inputs), ErrorCode::invalidArgument,
+                 "commands is null");
     CHECK(good.read("result").values == Picture(extent, 4, -1.0f).values);
 
     // Having refused all of these, it runs.
-    REQUIRE(host->context().run([&](VkCommandBuffer commands) { return program->record(commands, 0, good.inputs); }));
+    REQUIRE(host->context().run(
+        [&](VkCommandBuffer commands) { return program->record(commands, 0, good.inputs); }));
     CHECK(good.read("result").values == shifted(numbered(extent), {2, 1}).values);
 }
 
@@ -174,8 +186,10 @@ TEST_CASE("a program outlives its device and the host's copy of the plan") {
         REQUIRE(compiled);
         program = *std::move(compiled);
     }
-    const GpuFrame frame(*host, program->plan(), {{"host", numbered(extent)}}, {accessConstants(extent, {-1, 0})});
-    REQUIRE(host->context().run([&](VkCommandBuffer commands) { return program->record(commands, 1, frame.inputs); }));
+    const GpuFrame frame(*host, program->plan(), {{"host", numbered(extent)}},
+                         {accessConstants(extent, {-1, 0})});
+    REQUIRE(host->context().run(
+        [&](VkCommandBuffer commands) { return program->record(commands, 1, frame.inputs); }));
     CHECK(frame.read("result").values == shifted(numbered(extent), {-1, 0}).values);
 }
 

@@ -15,17 +15,20 @@ public:
         info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
         info.queueFamilyIndex = host.context().queueFamily();
         REQUIRE(vkCreateCommandPool(host.context().device(), &info, nullptr, &pool) == VK_SUCCESS);
-        auto allocation = host::structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+        auto allocation =
+            host::structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
         allocation.commandPool = pool;
         allocation.commandBufferCount = count;
-        REQUIRE(vkAllocateCommandBuffers(host.context().device(), &allocation, commands.data()) == VK_SUCCESS);
+        REQUIRE(vkAllocateCommandBuffers(host.context().device(), &allocation, commands.data()) ==
+                VK_SUCCESS);
     }
     Recordings(const Recordings&) = delete;
     Recordings& operator=(const Recordings&) = delete;
     ~Recordings() { vkDestroyCommandPool(host.context().device(), pool, nullptr); }
 
     void record(size_t index, vulkan::Program& program, int frame, const FrameInputs<vulkan::Image>& inputs) {
-        const auto begin = host::structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+        const auto begin =
+            host::structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
         REQUIRE(vkBeginCommandBuffer(commands[index], &begin) == VK_SUCCESS);
         REQUIRE(program.record(commands[index], frame, inputs));
         REQUIRE(vkEndCommandBuffer(commands[index]) == VK_SUCCESS);
@@ -62,7 +65,8 @@ TEST_CASE("frames in flight keep their own constants and images") {
         Recordings recordings(*host, uint32_t(count));
         // All are recorded before the first one runs, and twice over.
         for (int round = 0; round < 2; ++round) {
-            for (int i = 0; i < count; ++i) recordings.record(size_t(i), *program, i, frames[size_t(i)]->inputs);
+            for (int i = 0; i < count; ++i)
+                recordings.record(size_t(i), *program, i, frames[size_t(i)]->inputs);
             recordings.submitAll();
             if (round == 0) vkDeviceWaitIdle(host->context().device());
         }
@@ -83,7 +87,8 @@ TEST_CASE("inputs are read in any layout in which shaders read") {
                                            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     REQUIRE(image);
     GpuFrame frame(*host, plan, {}, {accessConstants(extent, {0, 0})});
-    frame.inputs.images[0].image = {(*image)->view, extent, VK_FORMAT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    frame.inputs.images[0].image = {(*image)->view, extent, VK_FORMAT_UNDEFINED,
+                                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     const VkClearColorValue colour{{1.5f, -2.0f, 0.25f, 7.0f}};
     REQUIRE(host->context().run([&](VkCommandBuffer commands) -> Result<> {
         host::recordTransition(commands, (*image)->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
@@ -144,7 +149,8 @@ TEST_CASE("timings are none where the queue family has no timestamps") {
     auto program = host->device(options).compile(plan);
     REQUIRE(program);
     const GpuFrame frame(*host, plan, {{"host", numbered(extent)}}, {accessConstants(extent)});
-    REQUIRE(host->context().run([&](VkCommandBuffer commands) { return program->record(commands, 0, frame.inputs); }));
+    REQUIRE(host->context().run(
+        [&](VkCommandBuffer commands) { return program->record(commands, 0, frame.inputs); }));
     const auto timings = program->timings(0);
     REQUIRE(timings);
     CHECK(timings->empty());

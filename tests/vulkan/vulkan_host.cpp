@@ -8,11 +8,13 @@
 namespace rebound::test {
 namespace {
 
-constexpr VkMemoryPropertyFlags hostMemory = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags hostMemory =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 std::unique_ptr<host::VulkanBuffer> stagingBuffer(const VulkanHost& host, size_t size) {
-    auto buffer = host::VulkanBuffer::create(host.context(), size,
-                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, hostMemory);
+    auto buffer = host::VulkanBuffer::create(
+        host.context(), size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        hostMemory);
     REQUIRE(buffer);
     return *std::move(buffer);
 }
@@ -20,7 +22,8 @@ std::unique_ptr<host::VulkanBuffer> stagingBuffer(const VulkanHost& host, size_t
 std::unique_ptr<host::VulkanImage> upload(const VulkanHost& host, const Picture& picture, Format format) {
     constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    auto image = host::VulkanImage::create(host.context(), picture.extent, vulkan::vulkanFormat(format), usage);
+    auto image =
+        host::VulkanImage::create(host.context(), picture.extent, vulkan::vulkanFormat(format), usage);
     REQUIRE(image);
     lab::Image source(picture.extent, picture.channels);
     source.data = picture.values;
@@ -85,7 +88,8 @@ GpuFrame::GpuFrame(const VulkanHost& h, const Plan& p, const NamedPictures& pict
             if (named.first == r.name) picture = named.second;
         // Inputs in single precision: what kernels compute is compared, not what hosts store.
         images[i] = upload(host, picture, r.kind == ResourceKind::output ? r.format : Format::rgba32f);
-        inputs.images.push_back({r.name, {images[i]->view, r.extent, images[i]->format, VK_IMAGE_LAYOUT_GENERAL}});
+        inputs.images.push_back(
+            {r.name, {images[i]->view, r.extent, images[i]->format, VK_IMAGE_LAYOUT_GENERAL}});
     }
     inputs.constants = std::move(constants);
 }
@@ -93,7 +97,8 @@ GpuFrame::GpuFrame(const VulkanHost& h, const Plan& p, const NamedPictures& pict
 Picture GpuFrame::read(const std::string& output) const {
     const size_t index = size_t(plan.find(output));
     const Resource& r = plan.resources[index];
-    const auto staging = stagingBuffer(host, bytesPerTexel(r.format) * size_t(r.extent.width) * size_t(r.extent.height));
+    const auto staging =
+        stagingBuffer(host, bytesPerTexel(r.format) * size_t(r.extent.width) * size_t(r.extent.height));
     REQUIRE(host.context().run([&](VkCommandBuffer commands) -> Result<> {
         host::recordFullBarrier(commands);
         host::recordDownload(commands, images[index]->image, r.extent, staging->buffer, 0);
@@ -116,7 +121,8 @@ Picture runOnVulkan(const VulkanHost& host, const vulkan::Device& device, const 
     return frame.read("result");
 }
 
-Picture runOnCpu(const Plan& plan, const NamedPictures& pictures, const std::vector<NamedConstants>& constants) {
+Picture runOnCpu(const Plan& plan, const NamedPictures& pictures,
+                 const std::vector<NamedConstants>& constants) {
     auto program = deviceFor(cpu::Isa::scalar).compile(plan);
     REQUIRE_MESSAGE(program, (program ? "" : program.error().message));
     NamedPictures kept = pictures;
@@ -139,12 +145,14 @@ Plan copyPlan(Extent2D extent, int mode) {
     plan.add({"grid", ResourceKind::frameConstants, {}, 1, {}, {}, sizeof(AccessConstants)});
     plan.add(bufferResource("constants", std::vector{k}));
     plan.passes.push_back({"copy", "copy", {}, {{0, 0}, {1, 1, Access::write}, {2, 4}}, extent});
-    plan.passes.push_back({"access", "access", {mode}, {{0, 1}, {1, 0}, {2, 2, Access::write}, {3, 3}}, extent});
+    plan.passes.push_back(
+        {"access", "access", {mode}, {{0, 1}, {1, 0}, {2, 2, Access::write}, {3, 3}}, extent});
     return plan;
 }
 
 NamedConstants accessConstants(Extent2D extent, ivec2 offset, int shift, int bias) {
-    return {"grid", bytesOf(AccessConstants{{extent.width, extent.height, shift, bias}, {offset.x, offset.y, 0, 0}})};
+    return {"grid",
+            bytesOf(AccessConstants{{extent.width, extent.height, shift, bias}, {offset.x, offset.y, 0, 0}})};
 }
 
 Picture shifted(const Picture& picture, ivec2 offset) {
@@ -157,8 +165,9 @@ Picture shifted(const Picture& picture, ivec2 offset) {
 
 bool runsRight(const VulkanHost& host, const vulkan::Device& device) {
     const Extent2D extent{20, 5};
-    return runOnVulkan(host, device, copyPlan(extent), {{"host", numbered(extent)}}, {accessConstants(extent)}).values ==
-           shifted(numbered(extent), {2, 1}).values;
+    return runOnVulkan(host, device, copyPlan(extent), {{"host", numbered(extent)}},
+                       {accessConstants(extent)})
+               .values == shifted(numbered(extent), {2, 1}).values;
 }
 
 } // namespace rebound::test

@@ -24,7 +24,7 @@ public:
 
     int requests = 0, refuseAt = -1; // the number of the request that finds no memory
     std::set<VkDeviceMemory> alive;
-    size_t bytes = 0;                // of all requests that were met
+    size_t bytes = 0; // of all requests that were met
     bool unmapped = false, misaligned = false;
 
 private:
@@ -42,8 +42,8 @@ private:
         info.memoryTypeIndex = block.memoryType;
         REQUIRE(vkAllocateMemory(host.context().device(), &info, nullptr, &block.memory) == VK_SUCCESS);
         if (request.hostVisible && !unmapped)
-            REQUIRE(vkMapMemory(host.context().device(), block.memory, block.offset, needs.size, 0, &block.mapped) ==
-                    VK_SUCCESS);
+            REQUIRE(vkMapMemory(host.context().device(), block.memory, block.offset, needs.size, 0,
+                                &block.mapped) == VK_SUCCESS);
         if (misaligned) ++block.offset;
         block.tag = this;
         alive.insert(block.memory);
@@ -92,14 +92,16 @@ TEST_CASE("memory use is told before compiling, and is what is asked of the engi
             CHECK(program->memoryUse().buffers >= use->buffers);
             CHECK(program->memoryUse().buffers < use->buffers + 256);
             CHECK(allocator.bytes == program->memoryUse().total());
-            CHECK(use->transient >= size_t(e.width) * size_t(e.height)); // a quarter of the pixels, 8 bytes each
+            CHECK(use->transient >=
+                  size_t(e.width) * size_t(e.height)); // a quarter of the pixels, 8 bytes each
             CHECK(use->transient <= use->transientUnshared);
         }
         CHECK(allocator.alive.empty());
     }
 }
 
-TEST_CASE("an engine's allocator is used for everything, from the offsets it gives, and gets all of it back") {
+TEST_CASE(
+    "an engine's allocator is used for everything, from the offsets it gives, and gets all of it back") {
     const auto host = VulkanHost::open();
     CountingAllocator allocator(*host);
     {
@@ -128,7 +130,8 @@ TEST_CASE("out of memory: an error, nothing leaks, and the device works on") {
         const auto program = device.compile(screenPlan({64, 48}));
         REQUIRE_FALSE(program);
         CHECK(program.error().code == ErrorCode::outOfMemory);
-        CHECK(program.error().message.find("bytes of device memory, which could not be allocated") != std::string::npos);
+        CHECK(program.error().message.find("bytes of device memory, which could not be allocated") !=
+              std::string::npos);
         CHECK(allocator.alive.empty());
         CHECK(interception().alive == before);
     }
@@ -141,7 +144,7 @@ TEST_CASE("blocks that do not suit are refused, and given back") {
     const auto host = VulkanHost::open();
     CountingAllocator allocator(*host);
     const vulkan::Device device = deviceWith(*host, allocator);
-    for (bool CountingAllocator::* fault : {&CountingAllocator::unmapped, &CountingAllocator::misaligned}) {
+    for (bool CountingAllocator::*fault : {&CountingAllocator::unmapped, &CountingAllocator::misaligned}) {
         allocator.*fault = true;
         const auto program = device.compile(copyPlan(extent));
         REQUIRE_FALSE(program);
@@ -168,7 +171,8 @@ TEST_CASE("whichever call fails while a plan is compiled, it is reported, and no
             CAPTURE(failures);
             if (!program) CHECK(program.error().code == ErrorCode::outOfMemory);
             interception().failAt = -1;
-            if (failures % 8 == 0) CHECK(device.compile(plan)); // what it kept of the failed attempt is of use
+            if (failures % 8 == 0)
+                CHECK(device.compile(plan)); // what it kept of the failed attempt is of use
         }
         CHECK(interception().alive == 0);
     }
@@ -191,8 +195,10 @@ TEST_CASE("views of different sizes share transients, the largest first") {
     REQUIRE(small);
     CHECK(small->memoryUse().transient == 0);
     CHECK(allocator.alive.size() == 3); // one of transients, two of buffers
-    const GpuFrame largeFrame(*host, largePlan, {{"host", numbered(largeExtent)}}, {accessConstants(largeExtent)});
-    const GpuFrame smallFrame(*host, smallPlan, {{"host", numbered(smallExtent)}}, {accessConstants(smallExtent)});
+    const GpuFrame largeFrame(*host, largePlan, {{"host", numbered(largeExtent)}},
+                              {accessConstants(largeExtent)});
+    const GpuFrame smallFrame(*host, smallPlan, {{"host", numbered(smallExtent)}},
+                              {accessConstants(smallExtent)});
     // Twice behind each other in one command buffer: each has to wait for the other.
     REQUIRE(host->context().run([&](VkCommandBuffer commands) -> Result<> {
         for (int frame : {0, 1}) {
@@ -205,7 +211,8 @@ TEST_CASE("views of different sizes share transients, the largest first") {
     CHECK(smallFrame.read("result").values == shifted(numbered(smallExtent), {2, 1}).values);
 
     large = device.compile(copyPlan({1, 1})); // the owner goes; the memory stays as long as it is shared
-    REQUIRE(host->context().run([&](VkCommandBuffer commands) { return small->record(commands, 0, smallFrame.inputs); }));
+    REQUIRE(host->context().run(
+        [&](VkCommandBuffer commands) { return small->record(commands, 0, smallFrame.inputs); }));
     CHECK(smallFrame.read("result").values == shifted(numbered(smallExtent), {2, 1}).values);
 }
 
@@ -235,7 +242,8 @@ TEST_CASE("transients that are too small, or that do not suit, are not shared") 
     direct.add({"result", ResourceKind::output, Format::rgba32f, 4, extent, {}, 0});
     direct.add(bufferResource("k", std::vector{LanguageConstants{{extent.width, extent.height, 0, 0}, {}}}));
     direct.add(bufferResource("entries", std::vector<TableEntry>(1)));
-    direct.passes.push_back({"language", "language", {}, {{0, 0}, {1, 2, Access::write}, {2, 3}, {3, 4}}, extent});
+    direct.passes.push_back(
+        {"language", "language", {}, {{0, 0}, {1, 2, Access::write}, {2, 3}, {3, 4}}, extent});
     auto none = device.compile(direct);
     REQUIRE_MESSAGE(none, (none ? "" : none.error().message));
     CHECK_FALSE(device.compile(copyPlan(extent), {2, &*none, false}));
@@ -249,7 +257,8 @@ TEST_CASE("recompiling at other sizes frees what was, and keeps the pipelines") 
     Frame scene = sceneFrame({}, {16, 16});
     REQUIRE(device.compile(*planScreenIndirect(scene.settings)));
     const int kept = interception().alive;
-    for (Extent2D e : {Extent2D{96, 54}, Extent2D{1, 1}, Extent2D{7, 300}, Extent2D{131, 77}, Extent2D{96, 54}}) {
+    for (Extent2D e :
+         {Extent2D{96, 54}, Extent2D{1, 1}, Extent2D{7, 300}, Extent2D{131, 77}, Extent2D{96, 54}}) {
         {
             scene = sceneFrame({}, e);
             auto plan = planScreenIndirect(scene.settings);
@@ -259,10 +268,14 @@ TEST_CASE("recompiling at other sizes frees what was, and keeps the pipelines") 
             const auto constants = cameraConstants(scene.camera, scene.settings.conventions, e);
             REQUIRE(constants);
             const GpuFrame frame(*host, *plan,
-                                 {{"depth", scene.depth}, {"normal", scene.normal}, {"radiance", scene.radiance},
-                                  {"albedo", scene.albedo}, {"lit", scene.lit}},
+                                 {{"depth", scene.depth},
+                                  {"normal", scene.normal},
+                                  {"radiance", scene.radiance},
+                                  {"albedo", scene.albedo},
+                                  {"lit", scene.lit}},
                                  {{"camera", bytesOf(*constants)}});
-            REQUIRE(host->context().run([&](VkCommandBuffer commands) { return program->record(commands, 0, frame.inputs); }));
+            REQUIRE(host->context().run(
+                [&](VkCommandBuffer commands) { return program->record(commands, 0, frame.inputs); }));
             const Picture composed = frame.read("composed");
             const Picture expected = render(scene, deviceFor(cpu::Isa::scalar)).composed;
             // Outputs in half precision, and a few texels chosen otherwise where two are equally good.

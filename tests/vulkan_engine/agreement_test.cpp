@@ -19,8 +19,8 @@ void checkFrame(const lab::Scene& scene, const lab::CameraView& view, const std:
         const auto read = [&](const auto& target) { return require(renderer->read(target, 3)); };
         const lab::Image lit = read(t.lit);
         checkIndirectLight(renderer->indirectLight().settings(),
-                           {cameraOf(view, size), require(renderer->read(t.depth, 1)), read(t.normal), lit, read(t.albedo),
-                            lit, read(t.indirect), read(t.composed)});
+                           {cameraOf(view, size), require(renderer->read(t.depth, 1)), read(t.normal), lit,
+                            read(t.albedo), lit, read(t.indirect), read(t.composed)});
     }
     checkSilence(context);
 }
@@ -34,18 +34,28 @@ void checkPicture(const lab::Scene& scene, const lab::CameraView& view) {
     const lab::Frame frame = require(lab::renderFrame(scene, view, options));
     const ScreenIndirectSettings settings = require(screenIndirectPreset("quarter-64", size));
     const lab::Image outgoing = lab::outgoingRadiance(frame);
-    const Light expected = onCpu(settings, {lab::cameraMatrices(view, size), frame.depth, frame.normal, outgoing,
-                                            frame.albedo, outgoing, {}, {}});
+    const Light expected = onCpu(settings, {lab::cameraMatrices(view, size),
+                                            frame.depth,
+                                            frame.normal,
+                                            outgoing,
+                                            frame.albedo,
+                                            outgoing,
+                                            {},
+                                            {}});
     {
         const auto renderer = rendererFor(context, scene, size, view);
         renderFrame(context, *renderer, 0, view);
         const lab::Image composed = require(renderer->read(renderer->targets().composed, 3));
         const PictureDifference pictures = pictureDifference(composed, expected.composed);
         const Difference lit = difference(require(renderer->read(renderer->targets().lit, 3)), outgoing);
-        const Difference indirect = difference(require(renderer->read(renderer->targets().indirect, 3)), expected.indirect);
+        const Difference indirect =
+            difference(require(renderer->read(renderer->targets().indirect, 3)), expected.indirect);
         const double means = mean(composed) / mean(expected.composed);
-        MESSAGE(view.name, ": pictures differ by ", pictures.average, " of 255 on average, ", 100.0 * pictures.far, " % of values by more than 32; direct "
-                "light by ", lit.average, " of its mean, indirect light by ", indirect.average, "; means' ratio ", means);
+        MESSAGE(view.name, ": pictures differ by ", pictures.average, " of 255 on average, ",
+                100.0 * pictures.far,
+                " % of values by more than 32; direct "
+                "light by ",
+                lit.average, " of its mean, indirect light by ", indirect.average, "; means' ratio ", means);
         CHECK(pictures.average < mostOfCornell.average);
         CHECK(pictures.far < mostOfCornell.far);
         CHECK(std::abs(means - 1.0) < 0.01);
@@ -87,7 +97,8 @@ TEST_CASE("the G-buffer is the lab's, but for edges") {
         const lab::Image normal = require(renderer->read(renderer->targets().normal, 3));
         const lab::Image albedo = require(renderer->read(renderer->targets().albedo, 3));
         lab::Image distance(size, 1);
-        for (size_t i = 0; i < depth.data.size(); ++i) // reversed depth is the near plane's distance over the surface's
+        for (size_t i = 0; i < depth.data.size();
+             ++i) // reversed depth is the near plane's distance over the surface's
             distance.data[i] = depth.data[i] > 0.0f ? view.nearPlane / depth.data[i] : 0.0f;
         checkGBuffer(distance, normal, albedo, expected);
     }

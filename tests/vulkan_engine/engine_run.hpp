@@ -21,14 +21,16 @@ inline void checkSilence(const host::VulkanContext& context) {
     for (const std::string& message : context.messages()) FAIL_CHECK(message);
 }
 
-inline std::unique_ptr<Renderer> rendererFor(const host::VulkanContext& context, const lab::Scene& scene, Extent2D size,
-                                             const lab::CameraView& view, const std::string& preset = "quarter-64") {
+inline std::unique_ptr<Renderer> rendererFor(const host::VulkanContext& context, const lab::Scene& scene,
+                                             Extent2D size, const lab::CameraView& view,
+                                             const std::string& preset = "quarter-64") {
     auto renderer = require(Renderer::create(context, scene, preset));
     require(renderer->resize(size, view));
     return renderer;
 }
 
-inline void renderFrame(const host::VulkanContext& context, Renderer& renderer, int frame, const lab::CameraView& view) {
+inline void renderFrame(const host::VulkanContext& context, Renderer& renderer, int frame,
+                        const lab::CameraView& view) {
     require(context.run([&](VkCommandBuffer commands) { return renderer.record(commands, frame, view); }));
 }
 

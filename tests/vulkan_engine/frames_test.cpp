@@ -9,7 +9,8 @@
 #include <numbers>
 
 namespace rebound::engine {
-TEST_CASE("resizes between frames in flight: no message, and the picture of a renderer that was never resized") {
+TEST_CASE(
+    "resizes between frames in flight: no message, and the picture of a renderer that was never resized") {
     const auto context = openContext();
     const lab::Scene scene = lab::makeCornellBox();
     const lab::CameraView& view = scene.cameras.at(0);
@@ -17,7 +18,8 @@ TEST_CASE("resizes between frames in flight: no message, and the picture of a re
         const auto renderer = rendererFor(context, scene, {64, 48}, view);
         {
             const auto loop = require(FrameLoop::create(context));
-            for (Extent2D size : {Extent2D{64, 48}, Extent2D{97, 33}, Extent2D{31, 57}, Extent2D{1, 1}, Extent2D{96, 64}}) {
+            for (Extent2D size :
+                 {Extent2D{64, 48}, Extent2D{97, 33}, Extent2D{31, 57}, Extent2D{1, 1}, Extent2D{96, 64}}) {
                 require(renderer->resize(size, view));
                 for (int i = 0; i < 3; ++i) {
                     require(renderer->record(require(loop->begin()), loop->frame(), view));
@@ -62,7 +64,8 @@ TEST_CASE("motion is none for a camera that rests, and leads to where a surface 
                 if (*depth.at(x, y) == 0.0f) continue;
                 const glm::dvec2 at((x + 0.5) / size.width, (y + 0.5) / size.height);
                 glm::dvec4 world = back * glm::dvec4(2.0 * at - 1.0, double(*depth.at(x, y)), 1.0);
-                const glm::dvec4 clip = glm::dmat4(before.projection) * glm::dmat4(before.view) * (world / world.w);
+                const glm::dvec4 clip =
+                    glm::dmat4(before.projection) * glm::dmat4(before.view) * (world / world.w);
                 const glm::dvec2 was = glm::dvec2(clip) / clip.w * 0.5 + 0.5;
                 // Halves of up to 0.04: 2^-16 apart; a difference of single-precision positions beside them.
                 CHECK(std::abs(at.x + double(motion.at(x, y)[0]) - was.x) < 5e-5);

@@ -51,9 +51,7 @@ inline std::string shortText(double value) {
     std::snprintf(text.data(), text.size(), "%.3g", value);
     return text.data();
 }
-inline std::string percent(double share) {
-    return shortText(100.0 * share) + " %";
-}
+inline std::string percent(double share) { return shortText(100.0 * share) + " %"; }
 
 constexpr double strayShare = 1e-3;         // a few pixels of a frame are nobody's concern
 constexpr double clearedShare = 0.01;       // of pixels exactly at the end of depth that is not the far one
@@ -71,8 +69,7 @@ inline double medianOf(const float* counts, double total, double bound, double s
     for (int i = 0; i < 8; ++i, bound *= step) {
         const double next = double(counts[i]);
         if (next < 0.5 * total) {
-            if (i == 0)
-                return bound / step; // less than the first bound, by no one knows how much
+            if (i == 0) return bound / step; // less than the first bound, by no one knows how much
             const double part = (above - 0.5 * total) / std::max(above - next, 1.0);
             return bound * std::pow(step, part - 1.0);
         }
@@ -130,8 +127,7 @@ private:
     }
     // One finding a problem: the first.
     void add(InputProblem p, Certainty certainty, double measure, std::string sentence) {
-        if (!found(p))
-            findings.push_back({p, certainty, measure, std::move(sentence)});
+        if (!found(p)) findings.push_back({p, certainty, measure, std::move(sentence)});
     }
     void addMistake(InputProblem p, double measure, std::string sentence) {
         add(p, Certainty::mistake, measure, std::move(sentence));
@@ -221,8 +217,7 @@ private:
                 InputProblem::normalsNotFinite, notFinite,
                 "normal is infinite or not a number at " + percent(notFinite) +
                     " of the surfaces, which count as empty; probably a vector of length 0 was normalised");
-        if (notUnit <= lengthShare)
-            return;
+        if (notUnit <= lengthShare) return;
         const double unitOtherwise =
                          value(isSigned ? ValueStatistic::unitIfUnsigned : ValueStatistic::unitIfSigned) /
                          numbers,
@@ -312,14 +307,12 @@ inline const char* describe(NormalChange change) {
 }
 
 inline void InputExaminer::examineGeometry() {
-    if (found(InputProblem::depthNegative))
-        return; // no reading that is tried takes it for what it is
+    if (found(InputProblem::depthNegative)) return; // no reading that is tried takes it for what it is
     const std::vector<GeometryReading> readings = geometryReadings(settings, camera, statistics);
     const GeometryReading best = explain(readings);
     double stated = 0.0;
     for (const GeometryReading& r : readings)
-        if (r.changes == 0)
-            stated = r.cosine;
+        if (r.changes == 0) stated = r.cosine;
     const auto rowOf = [&](int depth) {
         return GeometryRow{row(StatisticRow(int(StatisticRow::geometry0) + depth))};
     };
@@ -355,8 +348,7 @@ inline void InputExaminer::examineFacing() {
 }
 
 inline void InputExaminer::nameDepth(const GeometryReading& best, const std::string& evidence) {
-    if (best.depth == 0)
-        return;
+    if (best.depth == 0) return;
     const DepthMeaning meaning = depthMeanings(settings.conventions)[size_t(best.depth)];
     addMistake(meaning == DepthMeaning::reversed ? InputProblem::depthDirection : InputProblem::depthEncoding,
                best.cosine,
@@ -377,8 +369,7 @@ inline void InputExaminer::nameNormals(const GeometryReading& best, const std::s
                    "normal: " + evidence + " where it is read as one of " +
                        (n.space == NormalSpace::world ? "world" : "view") +
                        " space; probably conventions.normalSpace should be that");
-    if (n.change == NormalChange::none)
-        return;
+    if (n.change == NormalChange::none) return;
     const bool isSpace = n.change == NormalChange::transposed || n.change == NormalChange::zUp ||
                          n.change == NormalChange::zUpNegated;
     addMistake(isSpace ? InputProblem::normalsSpace : InputProblem::normalsFlipped, best.cosine,

@@ -8,9 +8,7 @@ namespace detail {
 inline double forwardSign(const GBufferConventions& c) {
     return c.handedness == Handedness::right ? -1.0 : 1.0;
 }
-inline double lowestDepth(DepthRange r) {
-    return r == DepthRange::zeroToOne ? 0.0 : -1.0;
-}
+inline double lowestDepth(DepthRange r) { return r == DepthRange::zeroToOne ? 0.0 : -1.0; }
 inline DepthMapping depthMapping(const Camera& camera) {
     const glm::mat4& p = camera.projection;
     return {p[2][2], p[3][2], p[2][3], p[3][3]};
@@ -28,20 +26,15 @@ inline DepthPlanes depthPlanes(const Camera& camera, const GBufferConventions& c
                perspective = c.projection == Projection::perspective;
     DepthPlanes planes{infinity, -infinity};
     for (double ndc : {-1.0, 0.0, 1.0}) {
-        if (device && ndc < lowestDepth(c.depthRange))
-            continue;
-        if (device && ndc == 0.0 && c.depthRange == DepthRange::minusOneToOne)
-            continue;
+        if (device && ndc < lowestDepth(c.depthRange)) continue;
+        if (device && ndc == 0.0 && c.depthRange == DepthRange::minusOneToOne) continue;
         const double z = forwardSign(c) * m.viewZ(ndc);
-        if (std::isnan(z) || (perspective && z < 0.0 && std::isfinite(z)))
-            continue;
+        if (std::isnan(z) || (perspective && z < 0.0 && std::isfinite(z))) continue;
         planes.nearDistance = std::min(planes.nearDistance, std::abs(z) == infinity ? infinity : z);
         planes.farDistance = std::max(planes.farDistance, std::abs(z) == infinity ? infinity : z);
     }
-    if (!(planes.nearDistance < planes.farDistance))
-        return {0.0, infinity};
-    if (perspective && planes.farDistance > 1e6 * planes.nearDistance)
-        planes.farDistance = infinity;
+    if (!(planes.nearDistance < planes.farDistance)) return {0.0, infinity};
+    if (perspective && planes.farDistance > 1e6 * planes.nearDistance) planes.farDistance = infinity;
     return planes;
 }
 
@@ -67,8 +60,7 @@ enum class DepthMeaning {
 
 inline std::array<DepthMeaning, size_t(depthReadingCount)> depthMeanings(const GBufferConventions& c) {
     using enum DepthMeaning;
-    if (c.depthEncoding == DepthEncoding::device)
-        return {stated, reversed, otherRange, planar, radial};
+    if (c.depthEncoding == DepthEncoding::device) return {stated, reversed, otherRange, planar, radial};
     return {stated, radial, device, deviceMinusOne, deviceReversed};
 }
 
@@ -109,8 +101,7 @@ inline std::array<DepthReading, size_t(depthReadingCount)>
 depthReadings(const Camera& camera, const GBufferConventions& c, const CameraConstants& stated) {
     std::array<DepthReading, size_t(depthReadingCount)> readings;
     const auto meanings = depthMeanings(c);
-    for (size_t i = 0; i < readings.size(); ++i)
-        readings[i] = depthReading(meanings[i], camera, c, stated);
+    for (size_t i = 0; i < readings.size(); ++i) readings[i] = depthReading(meanings[i], camera, c, stated);
     return readings;
 }
 
@@ -118,10 +109,8 @@ depthReadings(const Camera& camera, const GBufferConventions& c, const CameraCon
 inline glm::vec2 motionScale(const InputCheckSettings& s, MotionUnit unit) {
     const glm::vec2 size(s.resolution.width, s.resolution.height);
     const float sign = s.motionConventions.direction == MotionDirection::toPrevious ? 1.0f : -1.0f;
-    if (unit == MotionUnit::pixels)
-        return glm::vec2(sign);
-    if (unit == MotionUnit::textureCoordinates)
-        return sign * size;
+    if (unit == MotionUnit::pixels) return glm::vec2(sign);
+    if (unit == MotionUnit::textureCoordinates) return sign * size;
     return sign * 0.5f * size * glm::vec2(1.0f, s.conventions.firstRow == FirstRow::top ? -1.0f : 1.0f);
 }
 
@@ -180,12 +169,9 @@ inline glm::dmat3 normalMatrix(const NormalReading& r, const Camera& camera, con
         return m;
     };
     glm::dmat3 view = r.space == NormalSpace::world ? glm::dmat3(glm::mat3(camera.view)) : glm::dmat3(1.0);
-    if (r.change == NormalChange::transposed)
-        view = glm::transpose(view);
-    if (r.change == NormalChange::zUp)
-        view = view * glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-    if (r.change == NormalChange::zUpNegated)
-        view = view * glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+    if (r.change == NormalChange::transposed) view = glm::transpose(view);
+    if (r.change == NormalChange::zUp) view = view * glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    if (r.change == NormalChange::zUpNegated) view = view * glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
     if (r.change >= NormalChange::worldX && r.change <= NormalChange::worldZ)
         view = view * flip(int(r.change) - int(NormalChange::worldX));
     glm::dmat3 forward(1.0);
@@ -242,15 +228,13 @@ inline std::vector<GeometryReading> geometryReadings(const InputCheckSettings& s
         return GeometryRow{statistics.data() + 16 * (int(StatisticRow::geometry0) + depth)};
     };
     double most = 0.0;
-    for (int depth = 0; depth < depthReadingCount; ++depth)
-        most = std::max(most, rowOf(depth).surfaces());
+    for (int depth = 0; depth < depthReadingCount; ++depth) most = std::max(most, rowOf(depth).surfaces());
     for (int depth = 0; depth < depthReadingCount; ++depth)
         for (NormalSpace space : {NormalSpace::view, NormalSpace::world})
             for (NormalEncoding encoding : {NormalEncoding::signedUnit, NormalEncoding::unsignedUnit})
                 for (int change = 0; change < normalChangeCount; ++change) {
                     const NormalReading normal{space, encoding, NormalChange(change)};
-                    if (!applies(normal.change, space))
-                        continue;
+                    if (!applies(normal.change, space)) continue;
                     const GeometryRow row = rowOf(depth);
                     GeometryReading r{depth, normal, 0,
                                       row.meanCosine(normalMatrix(normal, camera, c), encoding)};
@@ -273,13 +257,10 @@ inline GeometryReading explain(const std::vector<GeometryReading>& readings) {
     for (int changes = 0; changes <= 4; ++changes) {
         GeometryReading candidate{0, {}, changes, -1.0};
         for (const GeometryReading& r : readings)
-            if (r.changes == changes && r.cosine > candidate.cosine)
-                candidate = r;
-        if (changes == 0)
-            best = candidate;
+            if (r.changes == changes && r.cosine > candidate.cosine) candidate = r;
+        if (changes == 0) best = candidate;
         const double needed = std::pow(explainingFactor, changes - best.changes);
-        if (changes > 0 && 1.0 - candidate.cosine < needed * (1.0 - best.cosine))
-            best = candidate;
+        if (changes > 0 && 1.0 - candidate.cosine < needed * (1.0 - best.cosine)) best = candidate;
     }
     return best;
 }

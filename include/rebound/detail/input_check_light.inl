@@ -13,8 +13,7 @@ constexpr double motionExplained = 0.5; // of moving surfaces that another readi
 constexpr double motionGain = 0.3;      // and by how much more than what is stated
 
 inline void InputExaminer::examineAlbedo() {
-    if (!settings.albedo)
-        return;
+    if (!settings.albedo) return;
     const auto share = [&](int i) { return at(StatisticRow::albedo, i) / surfaces(); };
     if (share(AlbedoStatistic::notFinite) > 0.0)
         addMistake(InputProblem::albedoNotFinite, share(AlbedoStatistic::notFinite),
@@ -61,8 +60,7 @@ inline void InputExaminer::examineLight() {
     if (settings.lit)
         examineLightValues(StatisticRow::lit, "lit", InputProblem::litNotFinite, InputProblem::litNegative,
                            InputProblem::litBlack);
-    if (!settings.radiance)
-        return;
+    if (!settings.radiance) return;
     examineLightValues(StatisticRow::radiance, "radiance", InputProblem::radianceNotFinite,
                        InputProblem::radianceNegative, InputProblem::radianceBlack);
     const double clipped = at(StatisticRow::radiance, LightStatistic::clipped) /
@@ -125,8 +123,7 @@ inline void InputExaminer::examineAlbedoInRadiance() {
 }
 
 inline void InputExaminer::examineMotion() {
-    if (!settings.motion)
-        return;
+    if (!settings.motion) return;
     const auto r = [&](int i) { return at(StatisticRow::motion, i); };
     if (r(MotionStatistic::notFinite) > 0.0)
         addMistake(InputProblem::motionNotFinite, r(MotionStatistic::notFinite) / surfaces(),
@@ -142,12 +139,10 @@ inline void InputExaminer::examineMotion() {
                        " of the surfaces that both cameras see at the same place; nearly none was expected "
                        "of a scene that "
                        "stands still: probably it is of another frame, or holds something else");
-    if (moving <= judgedShare * pixels())
-        return;
+    if (moving <= judgedShare * pixels()) return;
     int best = 0;
     for (int i = 1; i < 12; ++i)
-        if (r(MotionStatistic::agreements + i) > r(MotionStatistic::agreements + best))
-            best = i;
+        if (r(MotionStatistic::agreements + i) > r(MotionStatistic::agreements + best)) best = i;
     const double stated = r(MotionStatistic::agreements) / moving,
                  share = r(MotionStatistic::agreements + best) / moving;
     if (stated < motionAgreeing && share > motionExplained && share > stated + motionGain)

@@ -47,16 +47,11 @@ private:
         const Extent2D full = settings.resolution;
         depth = addImage("depth", ResourceKind::input, Format::r32f, 1, full);
         normal = addImage("normal", ResourceKind::input, Format::rgba16f, 3, full);
-        if (settings.albedo)
-            albedo = addImage("albedo", ResourceKind::input, Format::rgba16f, 3, full);
-        if (settings.radiance)
-            radiance = addImage("radiance", ResourceKind::input, Format::rgba16f, 3, full);
-        if (settings.lit)
-            lit = addImage("lit", ResourceKind::input, Format::rgba16f, 3, full);
-        if (settings.emission)
-            emission = addImage("emission", ResourceKind::input, Format::rgba16f, 3, full);
-        if (settings.motion)
-            motion = addImage("motion", ResourceKind::input, Format::rgba16f, 2, full);
+        if (settings.albedo) albedo = addImage("albedo", ResourceKind::input, Format::rgba16f, 3, full);
+        if (settings.radiance) radiance = addImage("radiance", ResourceKind::input, Format::rgba16f, 3, full);
+        if (settings.lit) lit = addImage("lit", ResourceKind::input, Format::rgba16f, 3, full);
+        if (settings.emission) emission = addImage("emission", ResourceKind::input, Format::rgba16f, 3, full);
+        if (settings.motion) motion = addImage("motion", ResourceKind::input, Format::rgba16f, 2, full);
         camera = addFrameConstants("camera", sizeof(CameraConstants));
         grid = {std::min(full.width, 256), std::min(full.height, 64)};
         foldGrid = {std::min(grid.width, 16), std::min(grid.height, 4)};
@@ -104,8 +99,7 @@ private:
     }
 
     static void bind(Pass& pass, const std::vector<ResourceIndex>& resources, Access access) {
-        for (ResourceIndex r : resources)
-            pass.bindings.push_back({int(pass.bindings.size()), r, access});
+        for (ResourceIndex r : resources) pass.bindings.push_back({int(pass.bindings.size()), r, access});
     }
 
     void addMeasures() {
@@ -127,10 +121,8 @@ private:
         if (settings.albedo)
             addRow(StatisticRow::albedo, "albedo statistics", "input_check/reflectance", {}, {depth, albedo},
                    {camera, tiles});
-        if (settings.radiance)
-            addLight(StatisticRow::radiance, "radiance statistics", radiance, projection);
-        if (settings.lit)
-            addLight(StatisticRow::lit, "lit statistics", lit, projection);
+        if (settings.radiance) addLight(StatisticRow::radiance, "radiance statistics", radiance, projection);
+        if (settings.lit) addLight(StatisticRow::lit, "lit statistics", lit, projection);
         if (settings.motion) {
             const ResourceIndex cameras = addFrameConstants("cameras", sizeof(MotionConstants));
             addRow(StatisticRow::motion, "motion statistics", "input_check/motion", {projection},
@@ -151,8 +143,7 @@ private:
             addImage("statistics", ResourceKind::output, Format::rgba32f, 4, inputStatisticsExtent);
         const ResourceIndex constants = addTiles("table tiles", inputStatisticsExtent, inputStatisticsExtent);
         Pass table{"table", "input_check/table", {}, {}, inputStatisticsExtent};
-        for (ResourceIndex row : rows)
-            bind(table, {row >= 0 ? row : rows[0]}, Access::read);
+        for (ResourceIndex row : rows) bind(table, {row >= 0 ? row : rows[0]}, Access::read);
         bind(table, {statistics}, Access::write);
         bind(table, {constants}, Access::read);
         plan.passes.push_back(table);
@@ -185,18 +176,13 @@ template <class Image>
 Result<FrameInputs<Image>> inputCheckInputs(const InputCheckSettings& settings,
                                             const InputCheckFrame<Image>& frame) {
     auto camera = cameraConstants(frame.camera, settings.conventions, settings.resolution);
-    if (!camera)
-        return camera.error();
+    if (!camera) return camera.error();
     FrameInputs<Image> inputs;
     inputs.images = {{"depth", frame.depth}, {"normal", frame.normal}, {"statistics", frame.statistics}};
-    if (settings.albedo)
-        inputs.images.push_back({"albedo", frame.albedo});
-    if (settings.radiance)
-        inputs.images.push_back({"radiance", frame.radiance});
-    if (settings.lit)
-        inputs.images.push_back({"lit", frame.lit});
-    if (settings.emission)
-        inputs.images.push_back({"emission", frame.emission});
+    if (settings.albedo) inputs.images.push_back({"albedo", frame.albedo});
+    if (settings.radiance) inputs.images.push_back({"radiance", frame.radiance});
+    if (settings.lit) inputs.images.push_back({"lit", frame.lit});
+    if (settings.emission) inputs.images.push_back({"emission", frame.emission});
     inputs.constants.push_back(detail::namedConstants("camera", *camera));
     inputs.constants.push_back(
         detail::namedConstants("planes", detail::planeConstants(frame.camera, settings.conventions)));
@@ -205,8 +191,7 @@ Result<FrameInputs<Image>> inputCheckInputs(const InputCheckSettings& settings,
         inputs.constants.push_back(detail::namedConstants(detail::depthReadingNames[i], readings[i]));
     if (settings.motion) {
         auto previous = cameraConstants(frame.previousCamera, settings.conventions, settings.resolution);
-        if (!previous)
-            return invalidArgument("previousCamera: " + previous.error().message);
+        if (!previous) return invalidArgument("previousCamera: " + previous.error().message);
         inputs.images.push_back({"motion", frame.motion});
         inputs.constants.push_back(detail::namedConstants(
             "cameras", detail::motionConstants(settings, frame.camera, frame.previousCamera)));

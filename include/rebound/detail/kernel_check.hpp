@@ -13,20 +13,26 @@ namespace rebound::detail {
 inline bool fits(BindingKind kind, const Resource& r, Access access) {
     const bool reads = access == Access::read;
     switch (kind) {
-    case BindingKind::none: return false;
-    case BindingKind::texture: return reads && r.kind == ResourceKind::transient;
-    case BindingKind::input: return reads && isImage(r.kind);
-    case BindingKind::image: return !reads && r.kind == ResourceKind::transient;
-    case BindingKind::output: return !reads && (r.kind == ResourceKind::output || r.kind == ResourceKind::transient);
-    case BindingKind::buffer: return reads && r.kind == ResourceKind::buffer;
+    case BindingKind::none:
+        return false;
+    case BindingKind::texture:
+        return reads && r.kind == ResourceKind::transient;
+    case BindingKind::input:
+        return reads && isImage(r.kind);
+    case BindingKind::image:
+        return !reads && r.kind == ResourceKind::transient;
+    case BindingKind::output:
+        return !reads && (r.kind == ResourceKind::output || r.kind == ResourceKind::transient);
+    case BindingKind::buffer:
+        return reads && r.kind == ResourceKind::buffer;
     case BindingKind::constants:
         return reads && (r.kind == ResourceKind::buffer || r.kind == ResourceKind::frameConstants);
     }
     return false;
 }
 
-inline Result<> checkBinding(const Plan& plan, const Pass& pass, const PassBinding& binding, std::string_view kernel,
-                             const KernelInfo& info) {
+inline Result<> checkBinding(const Plan& plan, const Pass& pass, const PassBinding& binding,
+                             std::string_view kernel, const KernelInfo& info) {
     const Resource& r = plan.resources[size_t(binding.resource)];
     const size_t atLeast = info.sizes[binding.slot];
     const std::string slot = "slot " + std::to_string(binding.slot) + " of " + std::string(kernel);
@@ -44,12 +50,13 @@ inline Result<> checkBinding(const Plan& plan, const Pass& pass, const PassBindi
 }
 
 // Features within their ranges, each slot bound to what it takes, none left out. Of a valid plan.
-inline Result<> checkKernelUse(const Plan& plan, const Pass& pass, std::string_view kernel, const KernelInfo& info) {
+inline Result<> checkKernelUse(const Plan& plan, const Pass& pass, std::string_view kernel,
+                               const KernelInfo& info) {
     for (size_t i = 0; i < pass.features.size(); ++i)
         if (const int count = info.featureCounts[i]; pass.features[i] < 0 || pass.features[i] >= count)
-            return invalidArgument("plan.passes: " + pass.label + " sets feature " + std::to_string(i) + " of " +
-                                   std::string(kernel) + " to " + std::to_string(pass.features[i]) + "; 0 to " +
-                                   std::to_string(count - 1) + " was expected");
+            return invalidArgument("plan.passes: " + pass.label + " sets feature " + std::to_string(i) +
+                                   " of " + std::string(kernel) + " to " + std::to_string(pass.features[i]) +
+                                   "; 0 to " + std::to_string(count - 1) + " was expected");
     bool bound[slotCount] = {};
     for (const PassBinding& binding : pass.bindings) {
         if (auto valid = checkBinding(plan, pass, binding, kernel, info); !valid) return valid.error();
@@ -57,8 +64,8 @@ inline Result<> checkKernelUse(const Plan& plan, const Pass& pass, std::string_v
     }
     for (int slot = 0; slot < slotCount; ++slot)
         if (info.kinds[slot] != BindingKind::none && !bound[slot])
-            return invalidArgument("plan.passes: " + pass.label + " leaves slot " + std::to_string(slot) + " of " +
-                                   std::string(kernel) + " unbound");
+            return invalidArgument("plan.passes: " + pass.label + " leaves slot " + std::to_string(slot) +
+                                   " of " + std::string(kernel) + " unbound");
     return {};
 }
 

@@ -16,15 +16,13 @@ public:
     // From the loss on, what note() gave first.
     Result<> check() const {
         const std::lock_guard lock(mutex);
-        if (found)
-            return *found;
+        if (found) return *found;
         return {};
     }
     // An error with these words, or those of whoever was first.
     Error note(std::string message) {
         const std::lock_guard lock(mutex);
-        if (!found)
-            found = Error{ErrorCode::deviceLost, std::move(message)};
+        if (!found) found = Error{ErrorCode::deviceLost, std::move(message)};
         return *found;
     }
 

@@ -12,11 +12,16 @@ inline bool isImage(ResourceKind kind) {
 
 inline const char* name(ResourceKind kind) {
     switch (kind) {
-    case ResourceKind::input: return "input";
-    case ResourceKind::output: return "output";
-    case ResourceKind::transient: return "transient";
-    case ResourceKind::buffer: return "buffer";
-    case ResourceKind::frameConstants: return "frame constants";
+    case ResourceKind::input:
+        return "input";
+    case ResourceKind::output:
+        return "output";
+    case ResourceKind::transient:
+        return "transient";
+    case ResourceKind::buffer:
+        return "buffer";
+    case ResourceKind::frameConstants:
+        return "frame constants";
     }
     return "?";
 }
@@ -36,7 +41,8 @@ inline Result<> validateResource(const Resource& r) {
         return invalidArgument(what + " is " + toText(r.extent) + "; 1x1 to " +
                                toText({maximumExtent, maximumExtent}) + " was expected");
     if (isImage(r.kind) && (r.channels < 1 || r.channels > 4))
-        return invalidArgument(what + " has " + std::to_string(r.channels) + " channels; 1 to 4 were expected");
+        return invalidArgument(what + " has " + std::to_string(r.channels) +
+                               " channels; 1 to 4 were expected");
     if (!isImage(r.kind) && r.size == 0) return invalidArgument(what + " is empty");
     if (r.kind == ResourceKind::buffer && r.data.size() != r.size)
         return invalidArgument(what + " says " + std::to_string(r.size) + " bytes and holds " +
@@ -46,7 +52,8 @@ inline Result<> validateResource(const Resource& r) {
 
 inline Result<> validatePass(const Plan& plan, const Pass& pass, std::vector<bool>& written) {
     const std::string what = "plan.passes: " + pass.label;
-    if (!isValidExtent(pass.grid)) return invalidArgument(what + " runs for " + toText(pass.grid) + " pixels");
+    if (!isValidExtent(pass.grid))
+        return invalidArgument(what + " runs for " + toText(pass.grid) + " pixels");
     if (pass.features.size() > 4) return invalidArgument(what + " has more than 4 features");
     std::set<int> slots, read, writes;
     for (const PassBinding& b : pass.bindings) {
@@ -54,7 +61,8 @@ inline Result<> validatePass(const Plan& plan, const Pass& pass, std::vector<boo
             return invalidArgument(what + " binds slot " + std::to_string(b.slot) +
                                    ", which is outside 0 to 15 or bound twice");
         if (b.resource < 0 || b.resource >= int(plan.resources.size()))
-            return invalidArgument(what + " binds resource " + std::to_string(b.resource) + ", which does not exist");
+            return invalidArgument(what + " binds resource " + std::to_string(b.resource) +
+                                   ", which does not exist");
         const Resource& r = plan.resources[size_t(b.resource)];
         if (b.access == Access::write && r.kind != ResourceKind::output && r.kind != ResourceKind::transient)
             return invalidArgument(what + " writes " + r.name + ", which is " + name(r.kind));
@@ -96,8 +104,12 @@ inline std::string toText(const Plan& plan) {
     for (const Resource& r : plan.resources) {
         text.append("resource ").append(r.name).append(": ").append(detail::name(r.kind)).append(" ");
         if (detail::isImage(r.kind))
-            text.append(detail::toText(r.extent)).append(" ").append(name(r.format)).append(", ")
-                .append(std::to_string(r.channels)).append(r.channels == 1 ? " channel" : " channels");
+            text.append(detail::toText(r.extent))
+                .append(" ")
+                .append(name(r.format))
+                .append(", ")
+                .append(std::to_string(r.channels))
+                .append(r.channels == 1 ? " channel" : " channels");
         else text.append(std::to_string(r.size)).append(" bytes");
         text.append("\n");
     }

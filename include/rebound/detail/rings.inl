@@ -18,7 +18,8 @@ struct RingPoint {
 
 inline double outerRadius(const Ring& ring, Extent2D level) {
     if (!ring.isOpen) return ring.radius;
-    return std::min(std::hypot(double(level.width), double(level.height)), std::max(openRingReach, double(ring.radius)));
+    return std::min(std::hypot(double(level.width), double(level.height)),
+                    std::max(openRingReach, double(ring.radius)));
 }
 
 // Wanted density of samples at a distance, relative.
@@ -29,8 +30,8 @@ inline double sampleDensity(double distance, bool isDisc) {
 // Relaxation converges to a density of weight^(1/2) in the plane, so the weight is the square of what is wanted.
 inline double relaxationWeight(double x, double y, const Ring& ring, Extent2D level) {
     const double wanted = sampleDensity(std::hypot(x, y), ring.isDisc);
-    const double onScreen = (level.width - std::abs(x)) * (level.height - std::abs(y)) /
-                            (double(level.width) * level.height);
+    const double onScreen =
+        (level.width - std::abs(x)) * (level.height - std::abs(y)) / (double(level.width) * level.height);
     const double share = std::max(onScreen, 0.02);
     return wanted * wanted * share * share;
 }
@@ -44,7 +45,8 @@ public:
         side = std::max(1, int(std::sqrt(double(sites.size()))));
         cell = std::max({(high.x - low.x) / side, (high.y - low.y) / side, 1e-9});
         buckets.resize(size_t(side + 1) * size_t(side + 1));
-        for (size_t i = 0; i < sites.size(); ++i) bucketAt(column(sites[i].x, low.x), column(sites[i].y, low.y)).push_back(int(i));
+        for (size_t i = 0; i < sites.size(); ++i)
+            bucketAt(column(sites[i].x, low.x), column(sites[i].y, low.y)).push_back(int(i));
     }
 
     int find(double x, double y) const {
@@ -105,7 +107,8 @@ inline std::vector<glm::dvec2> spiralSites(const Ring& ring, double outer, int c
     return sites;
 }
 
-inline std::vector<int> assignToSites(const std::vector<RingPoint>& points, const std::vector<glm::dvec2>& sites) {
+inline std::vector<int> assignToSites(const std::vector<RingPoint>& points,
+                                      const std::vector<glm::dvec2>& sites) {
     const NearestSite nearest(sites);
     std::vector<int> owner;
     owner.reserve(points.size());
@@ -126,7 +129,8 @@ inline void reviveEmptySites(const std::vector<RingPoint>& points, std::vector<i
             const size_t o = size_t(owner[i]);
             if (count[o] < 2) continue;
             const double dx = sites[o].x - points[i].x, dy = sites[o].y - points[i].y;
-            const double badness = (dx * dx + dy * dy) * sampleDensity(std::hypot(points[i].x, points[i].y), isDisc);
+            const double badness =
+                (dx * dx + dy * dy) * sampleDensity(std::hypot(points[i].x, points[i].y), isDisc);
             if (badness > worst) worst = badness, chosen = i;
         }
         if (worst < 0.0) return;
@@ -152,7 +156,8 @@ inline void relaxSites(const std::vector<RingPoint>& points, std::vector<glm::dv
 }
 
 // The texels as points; many texels in blocks, of which there remain a few thousand.
-inline std::vector<RingPoint> relaxationPoints(const std::vector<RingTexel>& texels, const Ring& ring, Extent2D level) {
+inline std::vector<RingPoint> relaxationPoints(const std::vector<RingTexel>& texels, const Ring& ring,
+                                               Extent2D level) {
     constexpr size_t manyTexels = 8192;
     int block = 1;
     while (texels.size() / (size_t(block) * size_t(block)) > manyTexels) ++block;
@@ -203,7 +208,8 @@ inline std::vector<RingTexel> ringPattern(const Ring& ring, int samples, Extent2
     detail::relaxSites(detail::relaxationPoints(texels, ring, level), sites, ring.isDisc);
 
     std::vector<detail::RingPoint> points;
-    for (const RingTexel& t : texels) points.push_back({double(t.offset.x), double(t.offset.y), double(t.weight), 0.0});
+    for (const RingTexel& t : texels)
+        points.push_back({double(t.offset.x), double(t.offset.y), double(t.weight), 0.0});
     const std::vector<int> owner = detail::assignToSites(points, sites);
     std::vector<glm::dvec3> sums(sites.size(), glm::dvec3(0.0));
     for (size_t i = 0; i < points.size(); ++i)

@@ -29,8 +29,8 @@ inline std::string toText(double value) {
 }
 
 inline std::string rangeMessage(const char* setting, double value, double low, double high) {
-    return std::string("settings.") + setting + " is " + toText(value) + "; " + toText(low) + " to " + toText(high) +
-           " was expected";
+    return std::string("settings.") + setting + " is " + toText(value) + "; " + toText(low) + " to " +
+           toText(high) + " was expected";
 }
 
 inline Result<> validate(const ScreenIndirectSettings& s) {
@@ -47,7 +47,8 @@ inline Result<> validate(const ScreenIndirectSettings& s) {
     if (s.onlyLevel && (*s.onlyLevel < 0 || *s.onlyLevel >= s.levels))
         return invalidArgument(rangeMessage("onlyLevel", *s.onlyLevel, 0, s.levels - 1));
     if (!s.writeIndirect && !s.compose)
-        return invalidArgument("settings.writeIndirect and settings.compose are both false; one output was expected");
+        return invalidArgument(
+            "settings.writeIndirect and settings.compose are both false; one output was expected");
     return {};
 }
 
@@ -77,8 +78,8 @@ private:
     ScreenIndirectSettings settings;
     Plan plan;
     ResourceIndex camera = -1, depth = -1, normal = -1, radiance = -1;
-    std::vector<Level> levels;   // from the start resolution on
-    ResourceIndex result = -1;   // indirect light at the start resolution
+    std::vector<Level> levels; // from the start resolution on
+    ResourceIndex result = -1; // indirect light at the start resolution
 
     int projection() const {
         return settings.conventions.projection == Projection::orthographic ? orthographicProjection
@@ -88,7 +89,8 @@ private:
     int coarsest() const { return settings.onlyLevel.value_or(settings.levels - 1); }
     int finestGathered() const { return settings.onlyLevel.value_or(0); }
 
-    ResourceIndex addImage(std::string name, ResourceKind kind, Format format, int channels, Extent2D extent) {
+    ResourceIndex addImage(std::string name, ResourceKind kind, Format format, int channels,
+                           Extent2D extent) {
         return plan.add({std::move(name), kind, format, channels, extent, {}, 0});
     }
     template <class T>
@@ -106,7 +108,8 @@ private:
 
     Level addLevel(const std::string& suffix, int shift) {
         Level level{shift, reducedExtent(settings.resolution, shift), -1, -1};
-        level.surface = addImage("surface " + suffix, ResourceKind::transient, Format::rgba32f, 4, level.extent);
+        level.surface =
+            addImage("surface " + suffix, ResourceKind::transient, Format::rgba32f, 4, level.extent);
         level.light = addImage("light " + suffix, ResourceKind::transient, Format::rgba16f, 4, level.extent);
         return level;
     }
@@ -129,14 +132,20 @@ private:
     int reduction() const { return settings.reduction == Reduction::voting ? reduceVoting : reduceNearest; }
 
     void addPrepare(const Level& to, bool half) {
-        const ReduceConstants k{{to.extent.width, to.extent.height, 0, 0}, {1.0f, settings.minimumCosine, 0, 0}};
+        const ReduceConstants k{{to.extent.width, to.extent.height, 0, 0},
+                                {1.0f, settings.minimumCosine, 0, 0}};
         Pass pass{"prepare", "screen_indirect/prepare", {projection()}, {}, to.extent};
         if (half) {
             pass.kernel = "screen_indirect/prepare_half";
             pass.features = {projection(), reduction()};
         }
-        pass.bindings = {{0, depth}, {1, normal}, {2, radiance}, {3, to.surface, Access::write},
-                         {4, to.light, Access::write}, {5, camera}, {6, addConstants("prepare", k)}};
+        pass.bindings = {{0, depth},
+                         {1, normal},
+                         {2, radiance},
+                         {3, to.surface, Access::write},
+                         {4, to.light, Access::write},
+                         {5, camera},
+                         {6, addConstants("prepare", k)}};
         plan.passes.push_back(pass);
     }
 
@@ -147,8 +156,12 @@ private:
         plan.passes.push_back({label,
                                "screen_indirect/reduce",
                                {projection(), reduction()},
-                               {{0, from.surface}, {1, from.light}, {2, to.surface, Access::write},
-                                {3, to.light, Access::write}, {4, camera}, {5, constants}},
+                               {{0, from.surface},
+                                {1, from.light},
+                                {2, to.surface, Access::write},
+                                {3, to.light, Access::write},
+                                {4, camera},
+                                {5, constants}},
                                to.extent});
     }
 
@@ -167,13 +180,18 @@ private:
                                         {float(1 << level.shift), 0, 0, 0}};
         const ResourceIndex gathered =
             addImage(numbered("gathered ", k), ResourceKind::transient, Format::rgba16f, 3, level.extent);
-        plan.passes.push_back({label,
-                               "screen_indirect/gather",
-                               {projection(), settings.formFactor == FormFactor::pointToPoint ? pointFormFactor
-                                                                                              : discFormFactor},
-                               {{0, level.surface}, {1, level.light}, {2, gathered, Access::write}, {3, ring},
-                                {4, camera}, {5, addConstants(label, constants)}},
-                               level.extent});
+        plan.passes.push_back(
+            {label,
+             "screen_indirect/gather",
+             {projection(),
+              settings.formFactor == FormFactor::pointToPoint ? pointFormFactor : discFormFactor},
+             {{0, level.surface},
+              {1, level.light},
+              {2, gathered, Access::write},
+              {3, ring},
+              {4, camera},
+              {5, addConstants(label, constants)}},
+             level.extent});
         return gathered;
     }
 
@@ -195,9 +213,13 @@ private:
                 addImage(numbered("combined ", k), ResourceKind::transient, Format::rgba16f, 3, level.extent);
             const ResourceIndex constants =
                 addConstants(label, upsampleConstants(level.extent, level.shift, coarser.shift));
-            Pass pass{label, gathers ? "screen_indirect/combine" : "screen_indirect/carry", {projection()}, {}, level.extent};
-            pass.bindings = {{0, level.surface}, {1, coarser.surface}, {2, result}, {3, combined, Access::write},
-                             {4, camera}, {5, constants}};
+            Pass pass{label,
+                      gathers ? "screen_indirect/combine" : "screen_indirect/carry",
+                      {projection()},
+                      {},
+                      level.extent};
+            pass.bindings = {{0, level.surface},           {1, coarser.surface}, {2, result},
+                             {3, combined, Access::write}, {4, camera},          {5, constants}};
             if (gathers) pass.bindings.push_back({6, gathered});
             plan.passes.push_back(pass);
             result = combined;
@@ -211,18 +233,20 @@ private:
             addImage("smoothed", ResourceKind::transient, Format::rgba16f, 3, start.extent);
         const ResourceIndex constants =
             addConstants("smooth", upsampleConstants(start.extent, start.shift, start.shift));
-        plan.passes.push_back({"smooth",
-                               "screen_indirect/smooth",
-                               {projection()},
-                               {{0, start.surface}, {1, result}, {2, smoothed, Access::write}, {3, camera}, {4, constants}},
-                               start.extent});
+        plan.passes.push_back(
+            {"smooth",
+             "screen_indirect/smooth",
+             {projection()},
+             {{0, start.surface}, {1, result}, {2, smoothed, Access::write}, {3, camera}, {4, constants}},
+             start.extent});
         result = smoothed;
     }
 
     void addOutputs() {
         const Extent2D full = settings.resolution;
         ResourceIndex indirect = -1, composed = -1, albedo = -1, lit = -1;
-        if (settings.writeIndirect) indirect = addImage("indirect", ResourceKind::output, Format::rgba16f, 3, full);
+        if (settings.writeIndirect)
+            indirect = addImage("indirect", ResourceKind::output, Format::rgba16f, 3, full);
         if (settings.compose) {
             albedo = addImage("albedo", ResourceKind::input, Format::rgba16f, 3, full);
             lit = addImage("lit", ResourceKind::input, Format::rgba16f, 3, full);
@@ -231,13 +255,15 @@ private:
         const Level& start = levels[0];
         const ResourceIndex constants = addConstants("upsample", upsampleConstants(full, 0, start.shift));
         Pass upsample{"upsample", "screen_indirect/upsample", {projection()}, {}, full};
-        upsample.bindings = {{0, depth}, {1, normal}, {2, start.surface}, {3, result}, {4, camera}, {5, constants}};
+        upsample.bindings = {{0, depth},  {1, normal}, {2, start.surface},
+                             {3, result}, {4, camera}, {5, constants}};
         if (settings.writeIndirect) {
             upsample.bindings.insert(upsample.bindings.end(), {{6, indirect, Access::write}, {7, radiance}});
         } else {
             upsample.label = "upsample and compose";
             upsample.kernel = "screen_indirect/upsample_compose";
-            upsample.bindings.insert(upsample.bindings.end(), {{6, albedo}, {7, lit}, {8, composed, Access::write}, {9, radiance}});
+            upsample.bindings.insert(upsample.bindings.end(),
+                                     {{6, albedo}, {7, lit}, {8, composed, Access::write}, {9, radiance}});
         }
         plan.passes.push_back(upsample);
         if (!settings.writeIndirect || !settings.compose) return;
@@ -290,11 +316,13 @@ inline Result<ScreenIndirectSettings> screenIndirectPreset(std::string_view name
         }
         known += (known.empty() ? "" : ", ") + std::string(preset.name);
     }
-    return Error{ErrorCode::notFound, "preset is \"" + std::string(name) + "\"; one of " + known + " was expected"};
+    return Error{ErrorCode::notFound,
+                 "preset is \"" + std::string(name) + "\"; one of " + known + " was expected"};
 }
 
 inline float coveringRingRadius(const ScreenIndirectSettings& s) {
-    const Extent2D full{std::clamp(s.resolution.width, 1, maximumExtent), std::clamp(s.resolution.height, 1, maximumExtent)};
+    const Extent2D full{std::clamp(s.resolution.width, 1, maximumExtent),
+                        std::clamp(s.resolution.height, 1, maximumExtent)};
     const Extent2D e = detail::reducedExtent(full, detail::startShift(s.start));
     const float diagonal = std::hypot(float(e.width), float(e.height));
     const int levels = std::clamp(s.levels, 1, 8);

@@ -12,7 +12,8 @@
 namespace rebound::detail {
 
 // In the order of the tables; null where none has it.
-inline const Shader* findShader(const std::vector<std::span<const Shader* const>>& tables, std::string_view name) {
+inline const Shader* findShader(const std::vector<std::span<const Shader* const>>& tables,
+                                std::string_view name) {
     for (const auto& table : tables)
         for (const Shader* shader : table)
             if (shader->name == name) return shader;
@@ -26,9 +27,9 @@ inline Result<> checkShaderUse(const Plan& plan, const Pass& pass, const Shader&
         const Resource& r = plan.resources[size_t(b.resource)];
         const Format declared = shader.formats[b.slot];
         if (b.access == Access::write && r.format != declared)
-            return invalidArgument("plan.passes: " + pass.label + " writes " + r.name + ", which is " + name(r.format) +
-                                   ", through slot " + std::to_string(b.slot) + " of " + std::string(shader.name) +
-                                   ", which is " + name(declared));
+            return invalidArgument("plan.passes: " + pass.label + " writes " + r.name + ", which is " +
+                                   name(r.format) + ", through slot " + std::to_string(b.slot) + " of " +
+                                   std::string(shader.name) + ", which is " + name(declared));
     }
     return {};
 }

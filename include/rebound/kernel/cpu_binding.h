@@ -17,13 +17,13 @@ inline constexpr int rowAlignment = 16; // of the distance between rows [floats]
 
 struct Binding {
     BindingKind kind = BindingKind::none;
-    bool isHalf = false;           // input, output: half floats instead of floats
-    int width = 0, height = 0;     // [texels]
+    bool isHalf = false;       // input, output: half floats instead of floats
+    int width = 0, height = 0; // [texels]
     int channels = 0;
-    void* data = nullptr;          // texel 0, 0 of channel 0; a buffer's or a constant block's first byte
-    ptrdiff_t pixelStride = 0;     // [bytes]
-    ptrdiff_t rowStride = 0;       // [bytes]
-    ptrdiff_t channelStride = 0;   // [bytes]
+    void* data = nullptr;        // texel 0, 0 of channel 0; a buffer's or a constant block's first byte
+    ptrdiff_t pixelStride = 0;   // [bytes]
+    ptrdiff_t rowStride = 0;     // [bytes]
+    ptrdiff_t channelStride = 0; // [bytes]
 };
 
 // Runs a kernel for the pixels of rows yBegin to yEnd - 1 of a grid that is width pixels wide.
@@ -33,7 +33,7 @@ using RunRows = void (*)(const Binding* slots, int width, int yBegin, int yEnd);
 struct KernelEntry {
     const char* name;
     KernelInfo info;
-    const RunRows* variants;                 // indexed by feature 0 + count 0 * (feature 1 + count 1 * ...)
+    const RunRows* variants; // indexed by feature 0 + count 0 * (feature 1 + count 1 * ...)
 };
 
 } // namespace rebound::cpu

@@ -21,7 +21,8 @@ struct Texture {
         : width(b.width), height(b.height), channels(b.channels),
           rowStride(b.rowStride / ptrdiff_t(sizeof(float))) {
         for (int c = 0; c < 4; ++c)
-            plane[c] = static_cast<float*>(b.data) + (c < b.channels ? c * (b.channelStride / ptrdiff_t(sizeof(float))) : 0);
+            plane[c] = static_cast<float*>(b.data) +
+                       (c < b.channels ? c * (b.channelStride / ptrdiff_t(sizeof(float))) : 0);
     }
     ptrdiff_t index(int x, int y) const { return y * rowStride + x; }
 };
@@ -51,8 +52,8 @@ inline Vec4 fetchMinified(const Texture& t, Pixel p, ivec2 o) {
     const int x = 2 * p.x + o.x, y = 2 * p.y + o.y;
     if (unsigned(y) >= unsigned(t.height) || x >= t.width) return Vec4(Real(0.0f));
     const ptrdiff_t i = t.index(x, y);
-    return Vec4(loadEveryOther(t.plane[0] + i), loadEveryOther(t.plane[1] + i), loadEveryOther(t.plane[2] + i),
-                loadEveryOther(t.plane[3] + i));
+    return Vec4(loadEveryOther(t.plane[0] + i), loadEveryOther(t.plane[1] + i),
+                loadEveryOther(t.plane[2] + i), loadEveryOther(t.plane[3] + i));
 }
 
 // The texel at ((pixel + bias) >> shift) + offset, for biases of 0 to 2^shift and offsets of -1 to 1; zero outside.
@@ -103,7 +104,8 @@ struct HostImage {
     // Lanes x, x + step, ...; zero outside. step: 1 or 2.
     Real load(int channel, int x, int y, int step) const {
         if (channel >= image.channels || unsigned(y) >= unsigned(image.height)) return Real(0.0f);
-        if (contiguous() && x >= 0 && x + step * laneCount <= image.width) return loadContiguous(channel, x, y, step);
+        if (contiguous() && x >= 0 && x + step * laneCount <= image.width)
+            return loadContiguous(channel, x, y, step);
         alignas(64) float lanes[laneCount];
         for (int i = 0; i < laneCount; ++i) {
             const int xi = x + i * step;
@@ -121,7 +123,8 @@ struct HostImage {
         }
         alignas(64) float lanes[laneCount];
         storeLanes(lanes, v);
-        for (int i = 0; i < laneCount && p.x + i < image.width; ++i) storeOne(address(channel, p.x + i, p.y), lanes[i]);
+        for (int i = 0; i < laneCount && p.x + i < image.width; ++i)
+            storeOne(address(channel, p.x + i, p.y), lanes[i]);
     }
 
 private:
@@ -162,8 +165,12 @@ inline Vec4 fetchSpan(const HostImage& t, int x, int y, int step) {
     return Vec4(t.load(0, x, y, step), t.load(1, x, y, step), t.load(2, x, y, step), t.load(3, x, y, step));
 }
 inline Vec4 fetch(const HostImage& t, Pixel p) { return fetchSpan(t, p.x, p.y, 1); }
-inline Vec4 fetchOffset(const HostImage& t, Pixel p, ivec2 o) { return fetchSpan(t, p.x + o.x, p.y + o.y, 1); }
-inline Vec4 fetchMinified(const HostImage& t, Pixel p, ivec2 o) { return fetchSpan(t, 2 * p.x + o.x, 2 * p.y + o.y, 2); }
+inline Vec4 fetchOffset(const HostImage& t, Pixel p, ivec2 o) {
+    return fetchSpan(t, p.x + o.x, p.y + o.y, 1);
+}
+inline Vec4 fetchMinified(const HostImage& t, Pixel p, ivec2 o) {
+    return fetchSpan(t, 2 * p.x + o.x, 2 * p.y + o.y, 2);
+}
 inline void store(const HostImage& t, Pixel p, const Vec4& v) {
     t.storeLanesOf(0, p, v.x);
     t.storeLanesOf(1, p, v.y);

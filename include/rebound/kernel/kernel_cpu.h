@@ -10,7 +10,7 @@ inline uint16_t floatToHalf(float f) {
     uint32_t half;
     if (magnitude > 0x7f800000u) half = 0x7e00u;
     else if (magnitude >= 0x477ff000u) half = 0x7c00u; // from 65520 on infinite
-    else if (magnitude < 0x38800000u)                  // a denormal half: where 0.5 is added, the unit is 2^-24
+    else if (magnitude < 0x38800000u) // a denormal half: where 0.5 is added, the unit is 2^-24
         half = __builtin_bit_cast(uint32_t, __builtin_bit_cast(float, magnitude) + 0.5f) - 0x3f000000u;
     else half = (magnitude - 0x38000000u + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
     return uint16_t(half | ((bits >> 16) & 0x8000u));
@@ -41,43 +41,43 @@ constexpr int featureValue() {
 }
 
 // A kernel is a class template over its features' values; ThisKernel names the one that the file defines.
-#define RB_KERNEL(name)                                                                                                \
-    template <int... featureValues>                                                                                    \
-    struct name;                                                                                                       \
-    template <int... featureValues>                                                                                    \
-    using ThisKernel = name<featureValues...>;                                                                         \
-    template <int... featureValues>                                                                                    \
+#define RB_KERNEL(name)                                                                                      \
+    template <int... featureValues>                                                                          \
+    struct name;                                                                                             \
+    template <int... featureValues>                                                                          \
+    using ThisKernel = name<featureValues...>;                                                               \
+    template <int... featureValues>                                                                          \
     struct name {
-#define RB_FEATURE(id, name, count)                                                                                    \
-    static constexpr int name = featureValue<id, featureValues...>();                                                  \
+#define RB_FEATURE(id, name, count)                                                                          \
+    static constexpr int name = featureValue<id, featureValues...>();                                        \
     static constexpr int featureCount(Slot<id>) { return count; }
-#define RB_BIND(slot, bindingKind, name)                                                                               \
-    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::bindingKind; }                               \
+#define RB_BIND(slot, bindingKind, name)                                                                     \
+    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::bindingKind; }                     \
     void bind(Slot<slot>, const Binding& binding) { name = decltype(name)(binding); }
-#define RB_TEXTURE(slot, name)                                                                                         \
-    Texture name;                                                                                                      \
+#define RB_TEXTURE(slot, name)                                                                               \
+    Texture name;                                                                                            \
     RB_BIND(slot, texture, name)
-#define RB_INPUT(slot, name)                                                                                           \
-    HostImage name;                                                                                                    \
+#define RB_INPUT(slot, name)                                                                                 \
+    HostImage name;                                                                                          \
     RB_BIND(slot, input, name)
-#define RB_IMAGE(slot, format, name)                                                                                   \
-    Texture name;                                                                                                      \
+#define RB_IMAGE(slot, format, name)                                                                         \
+    Texture name;                                                                                            \
     RB_BIND(slot, image, name)
-#define RB_OUTPUT(slot, format, name)                                                                                  \
-    HostImage name;                                                                                                    \
+#define RB_OUTPUT(slot, format, name)                                                                        \
+    HostImage name;                                                                                          \
     RB_BIND(slot, output, name)
-#define RB_BUFFER(slot, Type, name)                                                                                    \
-    const Type* name;                                                                                                  \
-    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::buffer; }                                    \
-    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                                \
+#define RB_BUFFER(slot, Type, name)                                                                          \
+    const Type* name;                                                                                        \
+    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::buffer; }                          \
+    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
     void bind(Slot<slot>, const Binding& binding) { name = static_cast<const Type*>(binding.data); }
-#define RB_CONSTANTS(slot, Type, name)                                                                                 \
-    Type name;                                                                                                         \
-    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::constants; }                                 \
-    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                                \
+#define RB_CONSTANTS(slot, Type, name)                                                                       \
+    Type name;                                                                                               \
+    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::constants; }                       \
+    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
     void bind(Slot<slot>, const Binding& binding) { name = *static_cast<const Type*>(binding.data); }
 #define RB_MAIN(pixel, extent) void run(const Pixel pixel) const {
-#define RB_END_KERNEL                                                                                                  \
-    }                                                                                                                  \
-    }                                                                                                                  \
+#define RB_END_KERNEL                                                                                        \
+    }                                                                                                        \
+    }                                                                                                        \
     ;

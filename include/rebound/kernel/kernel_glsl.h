@@ -32,13 +32,13 @@
 #define RB_INPUT(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
 #define RB_IMAGE(slot, format, name) layout(RB_LAYOUT(slot), format) writeonly uniform highp image2D name;
 #define RB_OUTPUT(slot, format, name) layout(RB_LAYOUT(slot), format) writeonly uniform highp image2D name;
-#define RB_BUFFER(slot, Type, name)                                                                                    \
+#define RB_BUFFER(slot, Type, name)                                                                          \
     layout(RB_LAYOUT(slot), std430) readonly buffer name##Block { Type name[]; };
-#define RB_CONSTANTS(slot, Type, name)                                                                                 \
+#define RB_CONSTANTS(slot, Type, name)                                                                       \
     layout(RB_LAYOUT(slot), std140) uniform name##Block { Type name; };
-#define RB_MAIN(pixel, extent)                                                                                         \
-    void main() {                                                                                                      \
-        ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);                                                                 \
+#define RB_MAIN(pixel, extent)                                                                               \
+    void main() {                                                                                            \
+        ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);                                                       \
         if (pixel.x >= (extent).x || pixel.y >= (extent).y) return;
 #define RB_END_KERNEL }
 
@@ -63,7 +63,9 @@ vec2 pixelCenter(ivec2 p) { return vec2(p) + 0.5f; }
 
 bool isInside(ivec2 p, ivec2 size) { return p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y; }
 bool reaches(highp sampler2D t, ivec2 p, ivec2 o) { return isInside(p + o, textureSize(t, 0)); }
-vec4 fetchAt(highp sampler2D t, ivec2 p) { return isInside(p, textureSize(t, 0)) ? texelFetch(t, p, 0) : vec4(0.0f); }
+vec4 fetchAt(highp sampler2D t, ivec2 p) {
+    return isInside(p, textureSize(t, 0)) ? texelFetch(t, p, 0) : vec4(0.0f);
+}
 vec4 fetch(highp sampler2D t, ivec2 p) { return texelFetch(t, p, 0); }
 vec4 fetchOffset(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, p + o); }
 vec4 fetchMinified(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, 2 * p + o); }

@@ -18,7 +18,7 @@ inline constexpr int featureCapacity = 4;
 struct KernelInfo {
     BindingKind kinds[slotCount];       // what the kernel declares in each slot
     int featureCounts[featureCapacity]; // number of values of each feature; 1: no such feature
-    size_t sizes[slotCount];            // of what a slot of constants or of a buffer holds at least; 0: unknown [bytes]
+    size_t sizes[slotCount]; // of what a slot of constants or of a buffer holds at least; 0: unknown [bytes]
 };
 
 } // namespace rebound

@@ -22,7 +22,8 @@ constexpr size_t sizeOf() {
 
 template <class Kernel, int slot>
 void bindSlot(Kernel& kernel, const Binding* slots) {
-    if constexpr (requires { kernel.bind(Slot<slot>{}, slots[slot]); }) kernel.bind(Slot<slot>{}, slots[slot]);
+    if constexpr (requires { kernel.bind(Slot<slot>{}, slots[slot]); })
+        kernel.bind(Slot<slot>{}, slots[slot]);
 }
 
 template <class Kernel, int... slot>

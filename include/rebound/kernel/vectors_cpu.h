@@ -30,7 +30,9 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 inline Real length(const Vec3& a) { return sqrt(dot(a, a)); }
 
-inline Vec2 select(Mask m, const Vec2& a, const Vec2& b) { return Vec2(select(m, a.x, b.x), select(m, a.y, b.y)); }
+inline Vec2 select(Mask m, const Vec2& a, const Vec2& b) {
+    return Vec2(select(m, a.x, b.x), select(m, a.y, b.y));
+}
 inline Vec3 select(Mask m, const Vec3& a, const Vec3& b) {
     return Vec3(select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z));
 }

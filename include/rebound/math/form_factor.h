@@ -9,14 +9,12 @@
 //   cosReceiver   cosine at the receiver, clamped to 0
 //   discOverPi    the sender's area times its clamped cosine, over pi: R^2                  [m^2]
 //   distance2     squared distance                                                          [m^2]
-RB_FUNCTION Real pointToDisc(Real cosReceiver, Real discOverPi, Real distance2)
-{
+RB_FUNCTION Real pointToDisc(Real cosReceiver, Real discOverPi, Real distance2) {
     return cosReceiver * discOverPi * reciprocal(distance2 + discOverPi);
 }
 
 // To a differential area: cos(theta) cos(theta') ds / (pi r^2). Not bounded as r -> 0.      [RR-7162, eq. 1]
-RB_FUNCTION Real pointToPoint(Real cosReceiver, Real discOverPi, Real distance2)
-{
+RB_FUNCTION Real pointToPoint(Real cosReceiver, Real discOverPi, Real distance2) {
     return cosReceiver * discOverPi * reciprocal(distance2);
 }
 

@@ -26,20 +26,17 @@ struct LevelTexel {
 // Half floats end there; brighter surfaces count as that bright. [W m^-2 sr^-1]
 const float maximumRadiance = 65504.0f;
 
-RB_FUNCTION Vec4 packSurface(Surface s)
-{
+RB_FUNCTION Vec4 packSurface(Surface s) {
     Vec3 n = s.normal * s.areaOverPi;
     return Vec4(n.x, n.y, n.z, s.z);
 }
 
-RB_FUNCTION Vec4 packLight(LevelTexel t)
-{
+RB_FUNCTION Vec4 packLight(LevelTexel t) {
     Real ratio = t.senderZ * reciprocal(max(t.surface.z, Real(1e-30f))) - 1.0f;
     return Vec4(t.radiance.x, t.radiance.y, t.radiance.z, select(t.surface.z > 0.0f, ratio, Real(0.0f)));
 }
 
-RB_FUNCTION Surface unpackSurface(Vec4 surface)
-{
+RB_FUNCTION Surface unpackSurface(Vec4 surface) {
     Surface s;
     Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
     // The smallest normal float: an empty texel's normal stays zero.
@@ -51,13 +48,9 @@ RB_FUNCTION Surface unpackSurface(Vec4 surface)
 }
 
 // Distance along the viewing axis at which a texel sends [m].
-RB_FUNCTION Real senderDistance(Vec4 surface, Vec4 light)
-{
-    return surface.w * light.w + surface.w;
-}
+RB_FUNCTION Real senderDistance(Vec4 surface, Vec4 light) { return surface.w * light.w + surface.w; }
 
-RB_FUNCTION LevelTexel unpackTexel(Vec4 surface, Vec4 light)
-{
+RB_FUNCTION LevelTexel unpackTexel(Vec4 surface, Vec4 light) {
     LevelTexel t;
     t.surface = unpackSurface(surface);
     t.senderZ = senderDistance(surface, light);

@@ -8,8 +8,8 @@
 // standard deviation 0.5), of the voter's distance from the candidate's tangent plane (2 texels), and of the relative
 // difference in depth (0.05).
 //   inverseWidth   of a texel at the candidate                                              [m^-1]
-RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition, Real inverseWidth)
-{
+RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition,
+                             Real inverseWidth) {
     Real inverseZ = reciprocal(max(candidate.z, Real(1e-30f)));
     Real angle = (Real(1.0f) - dot(candidate.normal, voter.normal)) * 2.0f;
     Real plane = dot(candidate.normal, voterPosition - position) * inverseWidth * 0.5f;
@@ -25,9 +25,8 @@ RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Ve
 //   fine          in order (0,0), (1,0), (0,1), (1,1)
 //   coordinate    of the coarse texel's centre, full-resolution pixels
 //   fineScale     full-resolution pixels a fine texel
-RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Vec2 coordinate, float fineScale,
-                                  int reduction, int projection)
-{
+RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Vec2 coordinate,
+                                  float fineScale, int reduction, int projection) {
     Vec3 position[4];
     Real area = Real(0.0f);
     Real lowZ = Real(1e30f);

@@ -9,9 +9,8 @@
 //   shift            log2 of the coarse texels' size in pixels; 0: the images are of one size, and nothing is filtered
 //   coarseScale      full-resolution pixels a coarse texel
 RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUMENT coarseLight, Pixel pixel,
-                           Surface receiver, Vec3 position, CameraConstants camera, int shift, float coarseScale,
-                           int projection)
-{
+                           Surface receiver, Vec3 position, CameraConstants camera, int shift,
+                           float coarseScale, int projection) {
     if (shift == 0) {
         Vec4 same = fetch(coarseLight, pixel);
         return Vec3(same.x, same.y, same.z);
@@ -35,7 +34,8 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
         ivec2 offset = ivec2(tap & 1, tap >> 1);
         Vec4 surface = fetchMagnified(coarseSurfaces, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
         Vec4 light = fetchMagnified(coarseLight, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
-        Real across = n.x * (nearRay.x + step.x * float(offset.x)) + n.y * (nearRay.y + step.y * float(offset.y));
+        Real across =
+            n.x * (nearRay.x + step.x * float(offset.x)) + n.y * (nearRay.y + step.y * float(offset.y));
         Real distance = projection == orthographicProjection ? across + n.z * surface.w - own
                                                              : (across + n.z) * surface.w - own;
         Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
@@ -53,21 +53,20 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
 }
 
 // What coarser levels hold for a texel of a level; nothing where it has no surface.
-RB_FUNCTION Vec3 receivedByTexel(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUMENT coarseLight, Pixel pixel,
-                                 Surface receiver, CameraConstants camera, UpsampleConstants k, int projection)
-{
+RB_FUNCTION Vec3 receivedByTexel(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUMENT coarseLight,
+                                 Pixel pixel, Surface receiver, CameraConstants camera, UpsampleConstants k,
+                                 int projection) {
     Vec3 position = viewPosition(viewRay(camera, pixelCenter(pixel) * k.scale.x), receiver.z, projection);
-    Vec3 light = upsampled(coarseSurfaces, coarseLight, pixel, receiver, position, camera, k.extent.z, k.scale.y,
-                           projection);
+    Vec3 light = upsampled(coarseSurfaces, coarseLight, pixel, receiver, position, camera, k.extent.z,
+                           k.scale.y, projection);
     return select(receiver.z > 0.0f, light, Vec3(0.0f));
 }
 
 // What the start resolution holds for a pixel of the host's; nothing where it has no surface, and, as such a pixel sends
 // nothing, where its radiance is no number.
-RB_FUNCTION Vec3 receivedByPixel(RB_TEXTURE_ARGUMENT startSurfaces, RB_TEXTURE_ARGUMENT startLight, Pixel pixel,
-                                 Vec4 storedDepth, Vec4 storedNormal, Vec4 radiance, CameraConstants camera,
-                                 UpsampleConstants k, int projection)
-{
+RB_FUNCTION Vec3 receivedByPixel(RB_TEXTURE_ARGUMENT startSurfaces, RB_TEXTURE_ARGUMENT startLight,
+                                 Pixel pixel, Vec4 storedDepth, Vec4 storedNormal, Vec4 radiance,
+                                 CameraConstants camera, UpsampleConstants k, int projection) {
     Vec3 normal = Vec3(storedNormal.x, storedNormal.y, storedNormal.z);
     // Areas do not matter here, so neither does their smallest cosine.
     Surface receiver = surfaceOf(camera, pixelCenter(pixel), storedDepth.x, normal, 1.0f, projection);

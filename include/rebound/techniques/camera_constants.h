@@ -10,7 +10,7 @@ struct CameraConstants {
     vec4 normalX; // rows of the rotation from the stored normal to view space, .w: added to that component
     vec4 normalY;
     vec4 normalZ;
-    vec4 empty;   // .x: the stored depth of a pixel without surface
+    vec4 empty; // .x: the stored depth of a pixel without surface
 };
 
 #endif

@@ -33,7 +33,7 @@ struct MotionConstants {
 };
 
 // Histograms count what exceeds a first bound and seven more, each so much larger than the one before.
-const float firstDepthBound = 1e-3f;    // [m]
+const float firstDepthBound = 1e-3f; // [m]
 const float depthBoundStep = 10.0f;
 const float firstRadianceBound = 1e-5f; // [W m^-2 sr^-1]
 const float radianceBoundStep = 20.0f;

@@ -29,8 +29,9 @@ struct RingSample {
 };
 
 struct UpsampleConstants {
-    ivec4 extent; // .xy of the image written [texels], .z log2 of the coarse texels' size in texels of that image
-    vec4 scale;   // .x full-resolution pixels a texel of the image written, .y the same of the coarse one
+    ivec4
+        extent; // .xy of the image written [texels], .z log2 of the coarse texels' size in texels of that image
+    vec4 scale; // .x full-resolution pixels a texel of the image written, .y the same of the coarse one
 };
 
 #endif

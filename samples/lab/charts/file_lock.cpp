@@ -19,19 +19,16 @@ Result<FileLock> FileLock::acquire(const std::filesystem::path& path, WhenTaken 
         return Error{ErrorCode::inputOutput, "cannot open " + path.string() + ": " + std::strerror(errno)};
     FileLock lock(descriptor);
     int failure = 0;
-    do
-        failure = flock(descriptor, LOCK_EX | (whenTaken == WhenTaken::fail ? LOCK_NB : 0)) == 0 ? 0 : errno;
+    do failure = flock(descriptor, LOCK_EX | (whenTaken == WhenTaken::fail ? LOCK_NB : 0)) == 0 ? 0 : errno;
     while (failure == EINTR);
-    if (failure == EWOULDBLOCK)
-        return Error{ErrorCode::inputOutput, taken};
+    if (failure == EWOULDBLOCK) return Error{ErrorCode::inputOutput, taken};
     if (failure != 0)
         return Error{ErrorCode::inputOutput, "cannot lock " + path.string() + ": " + std::strerror(failure)};
     return lock;
 }
 
 FileLock::~FileLock() {
-    if (descriptor >= 0)
-        close(descriptor);
+    if (descriptor >= 0) close(descriptor);
 }
 
 std::filesystem::path measuringLockFile() {

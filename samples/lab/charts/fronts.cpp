@@ -13,11 +13,13 @@ namespace rebound::charts {
 namespace {
 
 bool isDrawable(const Point& point) {
-    return std::isfinite(point.metrics.relativeRmse) && point.metrics.relativeRmse > 0.0 && point.times.median > 0.0;
+    return std::isfinite(point.metrics.relativeRmse) && point.metrics.relativeRmse > 0.0 &&
+           point.times.median > 0.0;
 }
 
 ChartPoint chartPoint(const Point& point) {
-    return {point.name, point.technique, point.group(), point.times, point.metrics.relativeRmse, point.isPeer, false};
+    return {point.name, point.technique, point.group(), point.times, point.metrics.relativeRmse, point.isPeer,
+            false};
 }
 
 void markFronts(Chart& chart) {
@@ -29,8 +31,7 @@ void markFronts(Chart& chart) {
                 members.push_back(i);
                 places.push_back(chart.points[i].place());
             }
-        for (const size_t i : paretoFront(places))
-            chart.points[members[i]].isOnFront = true;
+        for (const size_t i : paretoFront(places)) chart.points[members[i]].isOnFront = true;
     }
 }
 
@@ -39,10 +40,9 @@ std::vector<std::vector<const Point*>> bySetting(const Results& results) {
     std::vector<std::vector<const Point*>> settings;
     std::map<std::pair<std::string, std::string>, size_t> index;
     for (const Point& point : results.points) {
-        const auto [place, isNew] = index.emplace(std::pair(point.group(), point.technique + " " + point.name),
-                                                  settings.size());
-        if (isNew)
-            settings.emplace_back();
+        const auto [place, isNew] =
+            index.emplace(std::pair(point.group(), point.technique + " " + point.name), settings.size());
+        if (isNew) settings.emplace_back();
         settings[place->second].push_back(&point);
     }
     return settings;
@@ -51,8 +51,7 @@ std::vector<std::vector<const Point*>> bySetting(const Results& results) {
 ChartPoint meanOf(const std::vector<const Point*>& points) {
     const auto mean = [&](auto valueOf) {
         std::vector<double> values;
-        for (const Point* point : points)
-            values.push_back(valueOf(*point));
+        for (const Point* point : points) values.push_back(valueOf(*point));
         return geometricMean(values);
     };
     ChartPoint result = chartPoint(*points.front());
@@ -67,8 +66,7 @@ ChartPoint meanOf(const std::vector<const Point*>& points) {
 bool areInEveryView(const std::vector<const Point*>& points, size_t views) {
     std::set<std::string> seen;
     for (const Point* point : points)
-        if (isDrawable(*point))
-            seen.insert(point->view);
+        if (isDrawable(*point)) seen.insert(point->view);
     return seen.size() == views && points.size() == views;
 }
 
@@ -87,26 +85,22 @@ std::vector<Chart> chartsOf(const Results& results) {
     if (results.views.size() > 1) {
         Chart all{"all " + std::to_string(results.views.size()) + " views, geometric means", "chart", {}};
         for (const auto& points : bySetting(results))
-            if (areInEveryView(points, results.views.size()))
-                all.points.push_back(meanOf(points));
+            if (areInEveryView(points, results.views.size())) all.points.push_back(meanOf(points));
         charts.push_back(std::move(all));
     }
     for (const ViewRecord& view : results.views) {
         Chart chart{view.label, "chart-" + fileNameOf(view.label), {}};
         for (const Point& point : results.points)
-            if (point.view == view.label && isDrawable(point))
-                chart.points.push_back(chartPoint(point));
+            if (point.view == view.label && isDrawable(point)) chart.points.push_back(chartPoint(point));
         charts.push_back(std::move(chart));
     }
-    for (Chart& chart : charts)
-        markFronts(chart);
+    for (Chart& chart : charts) markFronts(chart);
     return charts;
 }
 
 std::vector<Dominated> dominatedEverywhere(const Results& results) {
     std::map<std::pair<std::string, std::string>, std::vector<const Point*>> rivals; // by view and group
-    for (const Point& point : results.points)
-        rivals[{point.view, point.group()}].push_back(&point);
+    for (const Point& point : results.points) rivals[{point.view, point.group()}].push_back(&point);
     const auto place = [](const Point& p) { return SpeedAndError{p.times.median, p.metrics.relativeRmse}; };
     std::vector<Dominated> all;
     for (const auto& points : bySetting(results)) {
@@ -121,11 +115,11 @@ std::vector<Dominated> dominatedEverywhere(const Results& results) {
                 }
             lost += isBeaten;
         }
-        if (lost < points.size())
-            continue;
+        if (lost < points.size()) continue;
         const auto most = std::max_element(winners.begin(), winners.end(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
-        all.push_back({points.front()->name, points.front()->group(), most->first, most->second, points.size()});
+        all.push_back(
+            {points.front()->name, points.front()->group(), most->first, most->second, points.size()});
     }
     return all;
 }

@@ -16,7 +16,7 @@ struct ChartPoint {
     std::string technique;
     std::string group;
     Times times;
-    double error = 0.0;   // relative RMSE
+    double error = 0.0; // relative RMSE
     bool isPeer = false;
     bool isOnFront = false; // of its group
 

@@ -30,15 +30,13 @@ public:
     Pipe& operator=(const Pipe&) = delete;
     ~Pipe() {
         closeWriting();
-        if (isOpen)
-            close(ends[0]);
+        if (isOpen) close(ends[0]);
     }
 
     explicit operator bool() const { return isOpen; }
     int writing() const { return ends[1]; }
     void closeWriting() {
-        if (isOpen && ends[1] >= 0)
-            close(ends[1]);
+        if (isOpen && ends[1] >= 0) close(ends[1]);
         ends[1] = -1;
     }
     std::string readAll() const {
@@ -46,10 +44,8 @@ public:
         std::array<char, 4096> buffer{};
         for (;;) {
             const ssize_t count = read(ends[0], buffer.data(), buffer.size());
-            if (count > 0)
-                text.append(buffer.data(), size_t(count));
-            else if (count == 0 || errno != EINTR)
-                return text;
+            if (count > 0) text.append(buffer.data(), size_t(count));
+            else if (count == 0 || errno != EINTR) return text;
         }
     }
 
@@ -75,17 +71,16 @@ Result<fs::path> findGnuplot() {
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
         const fs::path program = fs::path(folder) / "gnuplot";
-        if (!folder.empty() && access(program.c_str(), X_OK) == 0)
-            return program;
+        if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
     }
-    return Error{ErrorCode::notFound,
-                 "the program gnuplot, which draws the charts, is not in PATH; Debian's package is gnuplot-nox"};
+    return Error{
+        ErrorCode::notFound,
+        "the program gnuplot, which draws the charts, is not in PATH; Debian's package is gnuplot-nox"};
 }
 
 Result<> runGnuplot(const fs::path& program, const fs::path& script) {
     Pipe complaints;
-    if (!complaints)
-        return failed(std::strerror(errno));
+    if (!complaints) return failed(std::strerror(errno));
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -96,15 +91,13 @@ Result<> runGnuplot(const fs::path& program, const fs::path& script) {
     pid_t process = 0;
     const int failure = posix_spawn(&process, name.c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (failure != 0)
-        return failed(std::strerror(failure));
+    if (failure != 0) return failed(std::strerror(failure));
     complaints.closeWriting();
     const std::string said = complaints.readAll();
     int status = 0;
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        return {};
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
     const std::string last = lastLine(said);
     return failed(last.empty() ? "it ended without a word" : last);
 }

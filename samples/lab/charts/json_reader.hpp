@@ -15,8 +15,7 @@ namespace rebound::charts {
 // Short enough for a sentence.
 inline std::string shortText(const nlohmann::json& value) {
     std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (text.size() > 80)
-        text = text.substr(0, 80) + "...";
+    if (text.size() > 80) text = text.substr(0, 80) + "...";
     return text;
 }
 
@@ -26,24 +25,21 @@ inline std::string shortText(const nlohmann::json& value) {
     lab::refuse(where + " is " + shortText(value) + "; " + expected + " was expected");
 }
 
-inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key, const std::string& where) {
+inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key,
+                                    const std::string& where) {
     const auto found = object.find(key);
-    if (found == object.end())
-        lab::refuse(where + " is missing");
+    if (found == object.end()) lab::refuse(where + " is missing");
     return *found;
 }
 
 inline void checkKeys(const nlohmann::json& object, const std::string& where,
                       std::initializer_list<const char*> known) {
-    if (!object.is_object())
-        refuseValue(where, object, "an object");
+    if (!object.is_object()) refuseValue(where, object, "an object");
     std::string list;
-    for (const char* key : known)
-        list += (list.empty() ? "" : ", ") + std::string(key);
+    for (const char* key : known) list += (list.empty() ? "" : ", ") + std::string(key);
     for (const auto& [key, value] : object.items()) {
         bool isKnown = false;
-        for (const char* k : known)
-            isKnown = isKnown || key == k;
+        for (const char* k : known) isKnown = isKnown || key == k;
         if (!isKnown)
             lab::refuse((where.empty() ? "" : where + ": ") + "the key " + shortText(nlohmann::json(key)) +
                         " is unknown; some of " + list + " were expected");
@@ -73,8 +69,7 @@ inline int integerOf(const nlohmann::json& value, const std::string& where, int 
 }
 
 inline const nlohmann::json& arrayOf(const nlohmann::json& value, const std::string& where) {
-    if (!value.is_array() || value.empty())
-        refuseValue(where, value, "an array that is not empty");
+    if (!value.is_array() || value.empty()) refuseValue(where, value, "an array that is not empty");
     return value;
 }
 

@@ -26,8 +26,7 @@ public:
         const std::vector<uint8_t> bytes = lab::readFileBytes(file, largestPicture, fs::path());
         std::string text = base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         const auto [place, isNew] = index.emplace(std::move(text), list.size());
-        if (isNew)
-            list.push_back(place->first);
+        if (isNew) list.push_back(place->first);
         return place->second;
     }
 
@@ -58,7 +57,8 @@ std::string fill(std::string_view text, const std::map<std::string_view, std::st
     std::string filled;
     for (size_t at = 0; at < text.size();) {
         const auto mark = text[at] == '@' ? text.find('@', at + 1) : std::string_view::npos;
-        const auto value = mark == std::string_view::npos ? values.end() : values.find(text.substr(at, mark + 1 - at));
+        const auto value =
+            mark == std::string_view::npos ? values.end() : values.find(text.substr(at, mark + 1 - at));
         if (value != values.end()) {
             filled += value->second;
             at = mark + 1;
@@ -76,8 +76,7 @@ std::string jsonForScript(const Json& json) {
     for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
         if (c == '<') // in texts alone
             text += "\\u003c";
-        else
-            text += c;
+        else text += c;
     return text;
 }
 
@@ -90,16 +89,14 @@ std::string base64(std::string_view bytes) {
         uint32_t group = 0;
         for (size_t k = 0; k < 3; ++k)
             group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (size_t k = 0; k < 4; ++k)
-            text += k <= count ? digits[group >> (18 - 6 * k) & 63u] : '=';
+        for (size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63u] : '=';
     }
     return text;
 }
 
 Result<std::string> resultsPage(const Results& results, const fs::path& pictures) {
     const auto data = lab::guardInput(pictures, [&] { return jsonForScript(pageData(results, pictures)); });
-    if (!data)
-        return data.error();
+    if (!data) return data.error();
     return fill(embedded::pageTemplate, {{"@STYLE@", embedded::pageStyle},
                                          {"@RESULTS@", *data},
                                          {"@LIBRARY@", embedded::chartLibrary},

@@ -15,8 +15,7 @@ bool dominates(const SpeedAndError& better, const SpeedAndError& worse) {
 std::vector<size_t> paretoFront(const std::vector<SpeedAndError>& points) {
     std::vector<size_t> order;
     for (size_t i = 0; i < points.size(); ++i)
-        if (std::isfinite(points[i].milliseconds) && std::isfinite(points[i].error))
-            order.push_back(i);
+        if (std::isfinite(points[i].milliseconds) && std::isfinite(points[i].error)) order.push_back(i);
     std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
         const SpeedAndError &p = points[a], &q = points[b];
         return p.milliseconds != q.milliseconds ? p.milliseconds < q.milliseconds : p.error < q.error;
@@ -26,8 +25,7 @@ std::vector<size_t> paretoFront(const std::vector<SpeedAndError>& points) {
     for (const size_t i : order) {
         const bool equalsLast = !front.empty() && points[i].error == least &&
                                 points[i].milliseconds == points[front.back()].milliseconds;
-        if (points[i].error < least || equalsLast)
-            front.push_back(i);
+        if (points[i].error < least || equalsLast) front.push_back(i);
         least = std::min(least, points[i].error);
     }
     return front;
@@ -35,8 +33,7 @@ std::vector<size_t> paretoFront(const std::vector<SpeedAndError>& points) {
 
 double geometricMean(const std::vector<double>& values) {
     double sum = 0.0;
-    for (const double value : values)
-        sum += std::log(value);
+    for (const double value : values) sum += std::log(value);
     return std::exp(sum / double(values.size()));
 }
 

@@ -13,8 +13,8 @@ namespace rebound::charts {
 
 struct Peer {
     std::filesystem::path folder;
-    Point point;            // but for metrics
-    lab::Image light;       // E / pi of indirect light
+    Point point;      // but for metrics
+    lab::Image light; // E / pi of indirect light
 };
 
 // Every sub-folder is a peer, in the order of their names. Fails, naming the file, where one lacks a file, is of a view

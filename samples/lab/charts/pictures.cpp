@@ -11,7 +11,7 @@ namespace rebound::charts {
 namespace {
 
 constexpr int largestOnSheet = 800; // of each picture
-constexpr int largestOnPage = 320; // width and height [pixels]
+constexpr int largestOnPage = 320;  // width and height [pixels]
 
 // By which a picture becomes small enough.
 int factorFor(Extent2D extent, int largest) {
@@ -33,8 +33,7 @@ double meanOf(const lab::Image& image, const lab::Image& mask) {
 } // namespace
 
 double roundUp(double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-        return 1.0;
+    if (!(value > 0.0) || !std::isfinite(value)) return 1.0;
     const double decade = std::pow(10.0, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0})
         if (value <= step * decade * (1.0 + 1e-9)) // of rounding in the logarithm
@@ -60,8 +59,7 @@ Result<metrics::ErrorMetrics> ViewPictures::compare(const lab::Image& light) con
 
 Result<PointPictures> ViewPictures::show(lab::Image light) const {
     auto error = metrics::errorPicture(light, truth.light, options(), scale);
-    if (!error)
-        return error.error();
+    if (!error) return error.error();
     PointPictures pictures;
     pictures.shown = lab::toneMap(light, curve);
     pictures.smallShown = lab::toneMap(lab::reduced(light, factor), curve);
@@ -81,8 +79,7 @@ Result<lab::Picture> ViewPictures::sheet(const std::vector<Captioned>& all) cons
         {"direct light", shown(truth.direct, lab::automaticToneCurve(truth.direct))}};
     for (const Captioned& one : all) {
         auto error = metrics::errorPicture(one.light, truth.light, options(), scale);
-        if (!error)
-            return error.error();
+        if (!error) return error.error();
         pictures.push_back({one.caption, shown(one.light, curve)});
         pictures.push_back({"its error", lab::reduced(*error, reduction)});
     }
@@ -93,9 +90,9 @@ Result<> ViewPictures::writeView(const std::string& base) const {
     if (auto written = lab::writePng(base + ".png", lab::toneMap(truth.light, curve)); !written)
         return written;
     const lab::Picture small = lab::toneMap(lab::reduced(truth.light, factor), curve);
-    if (auto written = lab::writePng(base + "-small.png", small); !written)
-        return written;
-    return lab::writePng(base + "-direct.png", lab::toneMap(truth.direct, lab::automaticToneCurve(truth.direct)));
+    if (auto written = lab::writePng(base + "-small.png", small); !written) return written;
+    return lab::writePng(base + "-direct.png",
+                         lab::toneMap(truth.direct, lab::automaticToneCurve(truth.direct)));
 }
 
 } // namespace rebound::charts

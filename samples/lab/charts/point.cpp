@@ -37,8 +37,9 @@ ErrorMetrics metricsFromJson(const nlohmann::json& json) {
     metrics.notFinite = size_t(numberOf(json.at("not_finite"), "metrics.not_finite", 0.0, 1e12));
     for (const NamedMetric& metric : metricNames) {
         const nlohmann::json& value = json.at(metric.name); // null: not a number, as over a truth of 0
-        metrics.*metric.value = value.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                                : numberOf(value, std::string("metrics.") + metric.name, -most, most);
+        metrics.*metric.value = value.is_null()
+                                    ? std::numeric_limits<double>::quiet_NaN()
+                                    : numberOf(value, std::string("metrics.") + metric.name, -most, most);
     }
     return metrics;
 }
@@ -55,34 +56,24 @@ Json toJson(const Times& times) {
 
 Json toJson(const ErrorMetrics& metrics) {
     Json json = {{"pixels", metrics.pixels}, {"not_finite", metrics.notFinite}};
-    for (const NamedMetric& metric : metricNames)
-        json[metric.name] = metrics.*metric.value;
+    for (const NamedMetric& metric : metricNames) json[metric.name] = metrics.*metric.value;
     return json;
 }
 
 Json toJson(const Point& point) {
-    return {{"technique", point.technique},
-            {"name", point.name},
-            {"settings", point.settings},
-            {"view", point.view},
-            {"backend", point.backend},
-            {"device", point.device},
-            {"machine", point.machine},
-            {"peer", point.isPeer},
-            {"time_ms", toJson(point.times)},
-            {"metrics", toJson(point.metrics)},
+    return {{"technique", point.technique},   {"name", point.name},
+            {"settings", point.settings},     {"view", point.view},
+            {"backend", point.backend},       {"device", point.device},
+            {"machine", point.machine},       {"peer", point.isPeer},
+            {"time_ms", toJson(point.times)}, {"metrics", toJson(point.metrics)},
             {"picture", point.picture}};
 }
 
 Json toJson(const Results& results) {
-    Json json = {{"format", resultsFormat},
-                 {"version", results.version},
-                 {"machine", results.machine},
-                 {"size", {results.size.width, results.size.height}},
-                 {"bounces", results.bounces},
-                 {"sweep", results.sweep},
-                 {"views", Json::array()},
-                 {"points", Json::array()}};
+    Json json = {{"format", resultsFormat},    {"version", results.version},
+                 {"machine", results.machine}, {"size", {results.size.width, results.size.height}},
+                 {"bounces", results.bounces}, {"sweep", results.sweep},
+                 {"views", Json::array()},     {"points", Json::array()}};
     for (const ViewRecord& view : results.views)
         json["views"].push_back({{"view", view.label},
                                  {"scene", view.scene},
@@ -91,8 +82,7 @@ Json toJson(const Results& results) {
                                  {"reference_error", view.referenceError},
                                  {"error_scale", view.errorScale},
                                  {"picture", view.picture}});
-    for (const Point& point : results.points)
-        json["points"].push_back(toJson(point));
+    for (const Point& point : results.points) json["points"].push_back(toJson(point));
     return json;
 }
 
@@ -107,8 +97,7 @@ Times timesFromJson(const nlohmann::json& json, const std::string& where) {
     times.percentile10 = read("p10", times.median);
     times.percentile90 = read("p90", times.median);
     times.minimum = read("minimum", times.percentile10);
-    if (json.contains("frames"))
-        times.frames = integerOf(json["frames"], where + ".frames", 0, 1000000000);
+    if (json.contains("frames")) times.frames = integerOf(json["frames"], where + ".frames", 0, 1000000000);
     if (!(times.minimum <= times.percentile10 && times.percentile10 <= times.median &&
           times.median <= times.percentile90))
         refuseValue(where, json, "minimum <= p10 <= median <= p90");

@@ -24,16 +24,17 @@ struct Times {
 
 struct Point {
     std::string technique;
-    std::string name;     // of the setting
+    std::string name; // of the setting
     Json settings;
-    std::string view;     // its label: scene and camera
-    std::string backend;  // cpu avx2, vulkan; of a peer: its name
-    std::string device;   // what the backend runs on
-    std::string machine;  // processor and cores
-    bool isPeer = false;  // a result from elsewhere
+    std::string view;    // its label: scene and camera
+    std::string backend; // cpu avx2, vulkan; of a peer: its name
+    std::string device;  // what the backend runs on
+    std::string machine; // processor and cores
+    bool isPeer = false; // a result from elsewhere
     Times times;
     metrics::ErrorMetrics metrics;
-    std::string picture;  // file name of its pictures in points/, without what follows: .png, -error.png and others
+    std::string
+        picture; // file name of its pictures in points/, without what follows: .png, -error.png and others
 
     // Points of one group compete: the same device of the same machine.
     std::string group() const { return backend + " (" + (isPeer ? machine : device) + ")"; }
@@ -42,20 +43,20 @@ struct Point {
 // What the charts know of a view.
 struct ViewRecord {
     std::string label;
-    std::string scene;    // as given
+    std::string scene; // as given
     std::string camera;
-    int samples = 0;      // paths a pixel of its reference
+    int samples = 0;             // paths a pixel of its reference
     double referenceError = 0.0; // relative
     double errorScale = 0.0;     // where its error pictures' colours end [W m^-2 sr^-1]
-    std::string picture;  // as of points: .png and -direct.png
+    std::string picture;         // as of points: .png and -direct.png
 };
 
 struct Results {
     std::string version;
     std::string machine;
-    Json sweep;           // what was asked for
+    Json sweep; // what was asked for
     Extent2D size;
-    int bounces = 1;      // in the references
+    int bounces = 1; // in the references
     std::vector<ViewRecord> views;
     std::vector<Point> points;
 };

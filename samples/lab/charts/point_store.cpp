@@ -22,8 +22,7 @@ constexpr size_t largestPoint = size_t(1) << 20;
 // FNV-1a: which point is meant is decided by the key itself, which the file holds too.
 uint64_t hashOf(const std::string& text) {
     uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text)
-        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return hash;
 }
 
@@ -40,8 +39,7 @@ std::vector<fs::path> jsonFilesIn(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().extension() == ".json")
-            files.push_back(entry.path());
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -60,12 +58,9 @@ std::string fileNameOf(const std::string& text) {
     constexpr size_t longest = 80;
     std::string name;
     for (const char c : text.substr(0, longest))
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            name.push_back(c);
-        else if (!name.empty() && name.back() != '-')
-            name.push_back('-');
-    while (!name.empty() && name.back() == '-')
-        name.pop_back();
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) name.push_back(c);
+        else if (!name.empty() && name.back() != '-') name.push_back('-');
+    while (!name.empty() && name.back() == '-') name.pop_back();
     return name.empty() ? "point" : name;
 }
 
@@ -80,22 +75,19 @@ Result<PointStore> PointStore::open(const fs::path& folder, const std::string& v
     PointStore store(folder, version);
     if (fresh)
         for (const char* name : {"points", "pictures"})
-            if (auto removed = removeAll(folder / name); !removed)
-                return removed.error();
+            if (auto removed = removeAll(folder / name); !removed) return removed.error();
     for (const char* name : {"points", "pictures"})
-        if (auto created = createFolder(folder / name); !created)
-            return created.error();
+        if (auto created = createFolder(folder / name); !created) return created.error();
     for (const fs::path& file : jsonFilesIn(folder / "points"))
-        if (auto done = store.read(file); !done)
-            return done.error();
+        if (auto done = store.read(file); !done) return done.error();
     return store;
 }
 
 Result<> PointStore::read(const fs::path& file) {
     const auto point = lab::guardInput(file, [&] {
         const std::vector<uint8_t> bytes = lab::readFileBytes(file, largestPoint, file);
-        const nlohmann::json json =
-            lab::parseJsonObject({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "a finished point");
+        const nlohmann::json json = lab::parseJsonObject(
+            {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "a finished point");
         const int format = integerOf(member(json, "format", "format"), "format", 0, 1 << 30);
         const std::string made = textOf(member(json, "version", "version"), "version");
         if (format != resultsFormat || made != version)
@@ -104,8 +96,7 @@ Result<> PointStore::read(const fs::path& file) {
                         "; --fresh starts over, and another --out keeps both");
         return std::pair(member(json, "key", "key"), pointFromJson(member(json, "point", "point")));
     });
-    if (!point)
-        return point.error();
+    if (!point) return point.error();
     finished.emplace(file.stem().string(), *point);
     return {};
 }
@@ -117,8 +108,7 @@ std::optional<Point> PointStore::find(const PointKey& wanted) const {
         return std::nullopt;
     std::error_code ignored;
     for (const char* end : {".png", "-error.png", "-small.png", "-error-small.png"})
-        if (!fs::is_regular_file(picturePath(wanted.name + end), ignored))
-            return std::nullopt;
+        if (!fs::is_regular_file(picturePath(wanted.name + end), ignored)) return std::nullopt;
     return found->second.second;
 }
 
@@ -128,11 +118,9 @@ Result<> PointStore::save(const PointKey& key, const Point& point, const PointPi
                                                                  {"-small.png", &pictures.smallShown},
                                                                  {"-error-small.png", &pictures.smallError}};
     for (const auto& [end, picture] : files)
-        if (auto written = lab::writePng(picturePath(key.name + end), *picture); !written)
-            return written;
+        if (auto written = lab::writePng(picturePath(key.name + end), *picture); !written) return written;
     const fs::path base = folder / "points" / key.name;
-    if (auto written = lab::writeExr(base.string() + ".exr", pictures.light); !written)
-        return written;
+    if (auto written = lab::writeExr(base.string() + ".exr", pictures.light); !written) return written;
     const Json json = {
         {"format", resultsFormat}, {"version", version}, {"key", key.key}, {"point", toJson(point)}};
     const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -26,8 +26,8 @@ std::string fileNameOf(const std::string& text);
 
 // What is shown of a point.
 struct PointPictures {
-    lab::Image light;    // as EXR
-    lab::Picture shown;  // light, through its view's tone curve
+    lab::Image light;   // as EXR
+    lab::Picture shown; // light, through its view's tone curve
     lab::Picture error;
     lab::Picture smallShown; // for the page
     lab::Picture smallError;
@@ -37,7 +37,8 @@ class PointStore {
 public:
     // Creates the folder's points/ and pictures/. fresh: forgets all finished points. Fails where points are of another
     // version or format, or cannot be read.
-    static Result<PointStore> open(const std::filesystem::path& folder, const std::string& version, bool fresh);
+    static Result<PointStore> open(const std::filesystem::path& folder, const std::string& version,
+                                   bool fresh);
 
     // The finished point of that key.
     std::optional<Point> find(const PointKey&) const;

@@ -8,17 +8,16 @@ namespace rebound::charts {
 namespace {
 
 std::string textOf(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return value.is_string() ? value.get<std::string>()
+                             : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 } // namespace
 
 std::string csvField(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos)
-        return text;
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string field = "\"";
-    for (const char c : text)
-        field += c == '"' ? std::string("\"\"") : std::string(1, c);
+    for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
     return field + "\"";
 }
 
@@ -28,13 +27,11 @@ std::string resultsCsv(const Results& results) {
         text += csvField(field) + (isLast ? "\r\n" : ",");
     };
     const Json metrics = toJson(metrics::ErrorMetrics{}), times = toJson(Times{});
-    for (const char* name : {"view", "scene", "camera", "width", "height", "technique", "name", "settings", "backend",
-                             "device", "machine", "peer"})
+    for (const char* name : {"view", "scene", "camera", "width", "height", "technique", "name", "settings",
+                             "backend", "device", "machine", "peer"})
         add(name);
-    for (const auto& [key, value] : times.items())
-        add(key == "frames" ? key : key + "_ms");
-    for (const auto& [key, value] : metrics.items())
-        add(key);
+    for (const auto& [key, value] : times.items()) add(key == "frames" ? key : key + "_ms");
+    for (const auto& [key, value] : metrics.items()) add(key);
     add("picture", true);
     for (const Point& point : results.points) {
         const auto view = std::find_if(results.views.begin(), results.views.end(),
@@ -51,10 +48,8 @@ std::string resultsCsv(const Results& results) {
         add(point.device);
         add(point.machine);
         add(point.isPeer ? "true" : "false");
-        for (const Json& value : toJson(point.times))
-            add(textOf(value));
-        for (const Json& value : toJson(point.metrics))
-            add(textOf(value));
+        for (const Json& value : toJson(point.times)) add(textOf(value));
+        for (const Json& value : toJson(point.metrics)) add(textOf(value));
         add(point.picture, true);
     }
     return text;

@@ -18,7 +18,8 @@ constexpr double pointsAReference = 20.0;
 
 class Runner {
 public:
-    Runner(const ChartRun& what, Workshop& where, PointStore& points) : run(what), workshop(where), store(points) {
+    Runner(const ChartRun& what, Workshop& where, PointStore& points)
+        : run(what), workshop(where), store(points) {
         const double perView = pointsAReference + double(run.backends.size() * run.sweep.settings.size());
         total = perView * double(run.views.size()) + double(run.peers.size());
     }
@@ -30,41 +31,36 @@ public:
         results.bounces = run.sweep.reference.bounces;
         results.sweep = toJson(run.sweep);
         for (const View& view : run.views)
-            if (auto done = addView(view); !done)
-                return done.error();
+            if (auto done = addView(view); !done) return done.error();
         return results;
     }
 
 private:
     // Shows a step that counts for `weight` points; done() when it is over.
     lab::Progress step(const std::string& what, double weight) {
-        if (!run.progress)
-            return {};
+        if (!run.progress) return {};
         run.progress(what, finished / total);
-        return [this, what, weight](double share) { run.progress(what, (finished + weight * share) / total); };
+        return
+            [this, what, weight](double share) { run.progress(what, (finished + weight * share) / total); };
     }
 
     Result<> addView(const View& view) {
         auto truth = workshop.truth(view, step(view.label + ": the reference", pointsAReference));
-        if (!truth)
-            return truth.error();
+        if (!truth) return truth.error();
         finished += pointsAReference;
         ViewPictures pictures(*truth);
         const std::string picture = "view-" + fileNameOf(view.label) + "-" + view.contentKey;
-        if (auto written = pictures.writeView(store.picturePath(picture).string()); !written)
-            return written;
-        results.views.push_back({view.label, view.scene, view.camera.name, truth->samples, truth->relativeError,
-                                 pictures.errorScale(), picture});
+        if (auto written = pictures.writeView(store.picturePath(picture).string()); !written) return written;
+        results.views.push_back({view.label, view.scene, view.camera.name, truth->samples,
+                                 truth->relativeError, pictures.errorScale(), picture});
         for (ChartBackend& backend : run.backends)
             for (const Setting& setting : run.sweep.settings) {
-                if (auto done = addPoint(view, backend, setting, pictures); !done)
-                    return done;
+                if (auto done = addPoint(view, backend, setting, pictures); !done) return done;
                 finished += 1.0;
             }
         for (const Peer& peer : run.peers)
             if (peer.point.view == view.label)
-                if (auto done = addPeer(peer, view, pictures); !done)
-                    return done;
+                if (auto done = addPeer(peer, view, pictures); !done) return done;
         return writeSheet(view, pictures);
     }
 
@@ -84,20 +80,19 @@ private:
         std::vector<ViewPictures::Captioned> all;
         for (const size_t i : chosen) {
             auto light = store.readLight(points[i]->picture);
-            if (!light)
-                return light.error();
+            if (!light) return light.error();
             char figures[80];
             std::snprintf(figures, sizeof figures, ": %.3g ms, relative RMSE %.3g", places[i].milliseconds,
                           places[i].error);
             all.push_back({points[i]->name + " on " + points[i]->backend + figures, *std::move(light)});
         }
         const auto sheet = pictures.sheet(all);
-        if (!sheet)
-            return sheet.error();
+        if (!sheet) return sheet.error();
         return lab::writePng(store.picturePath("sheet-" + fileNameOf(view.label) + ".png"), *sheet);
     }
 
-    Result<> addPoint(const View& view, ChartBackend& backend, const Setting& setting, ViewPictures& pictures) {
+    Result<> addPoint(const View& view, ChartBackend& backend, const Setting& setting,
+                      ViewPictures& pictures) {
         const std::string title = view.label + " " + setting.name + " " + backend.label;
         const PointKey key(keyOf(view, backend, setting), title);
         if (const auto known = store.find(key)) {
@@ -106,8 +101,7 @@ private:
         }
         const lab::Progress progress = step(view.label + ", " + setting.name + ", " + backend.label, 1.0);
         auto trial = measureAlone(view, backend, setting, progress);
-        if (!trial)
-            return trial.error();
+        if (!trial) return trial.error();
         Point point;
         point.technique = setting.technique;
         point.name = setting.name;
@@ -137,15 +131,12 @@ private:
     Result<> finish(const PointKey& key, Point point, lab::Image light, const std::string& title,
                     ViewPictures& pictures) {
         auto metrics = pictures.compare(light);
-        if (!metrics)
-            return Error{metrics.error().code, title + ": " + metrics.error().message};
+        if (!metrics) return Error{metrics.error().code, title + ": " + metrics.error().message};
         point.metrics = *metrics;
         point.picture = key.name;
         auto shown = pictures.show(std::move(light));
-        if (!shown)
-            return Error{shown.error().code, title + ": " + shown.error().message};
-        if (auto saved = store.save(key, point, *shown); !saved)
-            return saved;
+        if (!shown) return Error{shown.error().code, title + ": " + shown.error().message};
+        if (auto saved = store.save(key, point, *shown); !saved) return saved;
         results.points.push_back(std::move(point));
         return {};
     }
@@ -154,8 +145,7 @@ private:
     Result<Trial> measureAlone(const View& view, ChartBackend& backend, const Setting& setting,
                                const lab::Progress& progress) {
         const auto lock = FileLock::acquire(measuringLockFile(), FileLock::WhenTaken::wait);
-        if (!lock)
-            return lock.error();
+        if (!lock) return lock.error();
         return workshop.measure(view, setting, backend, progress);
     }
 

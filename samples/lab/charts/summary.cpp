@@ -25,8 +25,7 @@ using Row = std::vector<std::string>;
 std::string markdownTable(const std::vector<Row>& rows) {
     std::vector<size_t> widths(rows[0].size(), 3);
     for (const Row& row : rows)
-        for (size_t i = 0; i < row.size(); ++i)
-            widths[i] = std::max(widths[i], row[i].size());
+        for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
     std::string text;
     for (size_t r = 0; r < rows.size(); ++r) {
         for (size_t i = 0; i < widths.size(); ++i) {
@@ -35,8 +34,7 @@ std::string markdownTable(const std::vector<Row>& rows) {
             text.append(i == 0 ? 0 : blanks, ' ').append(rows[r][i]).append(i == 0 ? blanks : 0, ' ') += ' ';
         }
         text += "|\n";
-        if (r > 0)
-            continue;
+        if (r > 0) continue;
         for (size_t i = 0; i < widths.size(); ++i)
             (text += '|').append(widths[i] + 1, '-') += i == 0 ? '-' : ':';
         text += "|\n";
@@ -47,8 +45,7 @@ std::string markdownTable(const std::vector<Row>& rows) {
 std::string frontTable(const Chart& chart, const std::string& group) {
     std::vector<const ChartPoint*> front;
     for (const ChartPoint& point : chart.points)
-        if (point.isOnFront && point.group == group)
-            front.push_back(&point);
+        if (point.isOnFront && point.group == group) front.push_back(&point);
     std::sort(front.begin(), front.end(),
               [](const ChartPoint* a, const ChartPoint* b) { return a->times.median < b->times.median; });
     std::vector<Row> rows = {{"setting", "median [ms]", "10 % to 90 % [ms]", "relative RMSE"}};
@@ -60,8 +57,9 @@ std::string frontTable(const Chart& chart, const std::string& group) {
 }
 
 std::string frontsText(const Results& results) {
-    std::string text = "## Pareto fronts\n\nSettings than which no other of the same device is both faster and nearer "
-                       "to the truth.\n";
+    std::string text =
+        "## Pareto fronts\n\nSettings than which no other of the same device is both faster and nearer "
+        "to the truth.\n";
     for (const Chart& chart : chartsOf(results))
         for (const std::string& group : groupsOf(chart.points))
             text += "\n### " + chart.title + ", " + group + "\n\n" + frontTable(chart, group);
@@ -71,9 +69,9 @@ std::string frontsText(const Results& results) {
 std::string dominatedText(const Results& results) {
     const std::vector<Dominated> all = dominatedEverywhere(results);
     std::string text = "\n## Never worth their time\n\n";
-    if (all.empty())
-        return text + "Every setting is on its front in some view.\n";
-    text += "In every view, another setting of the same device is faster and no worse, or as fast and better.\n\n";
+    if (all.empty()) return text + "Every setting is on its front in some view.\n";
+    text += "In every view, another setting of the same device is faster and no worse, or as fast and "
+            "better.\n\n";
     std::vector<Row> rows = {{"setting", "on", "beaten by", "in views"}};
     for (const Dominated& one : all)
         rows.push_back({one.name, one.group, one.by,
@@ -98,13 +96,14 @@ std::string bouncesText(int bounces) {
 } // namespace
 
 std::string summaryText(const Results& results) {
-    std::string text = "# Speed against accuracy\n\nRebound " + results.version + " on " + results.machine + ", " +
-                       std::to_string(results.size.width) + "x" + std::to_string(results.size.height) + ", " +
-                       plural(results.points.size(), "point") + " in " + plural(results.views.size(), "view") +
-                       ". The truth is " + bouncesText(results.bounces) + ", path traced:\n\n";
+    std::string text = "# Speed against accuracy\n\nRebound " + results.version + " on " + results.machine +
+                       ", " + std::to_string(results.size.width) + "x" + std::to_string(results.size.height) +
+                       ", " + plural(results.points.size(), "point") + " in " +
+                       plural(results.views.size(), "view") + ". The truth is " +
+                       bouncesText(results.bounces) + ", path traced:\n\n";
     for (const ViewRecord& view : results.views)
-        text += "- " + view.label + ": " + plural(size_t(view.samples), "path") + " a pixel, relative error " +
-                formatted("%.3f", view.referenceError) + "\n";
+        text += "- " + view.label + ": " + plural(size_t(view.samples), "path") +
+                " a pixel, relative error " + formatted("%.3f", view.referenceError) + "\n";
     return text + "\n" + frontsText(results) + dominatedText(results) + notFiniteText(results);
 }
 

@@ -16,9 +16,9 @@ using measure::Json;
 
 struct Setting {
     std::string technique = "screen_indirect";
-    std::string name;                 // from what it does: half-64, quarter-64-5 nearest; unique in a sweep
-    std::string preset;               // that it began with
-    ScreenIndirectSettings settings;  // at the sweep's size; a view's camera says its projection
+    std::string name;                // from what it does: half-64, quarter-64-5 nearest; unique in a sweep
+    std::string preset;              // that it began with
+    ScreenIndirectSettings settings; // at the sweep's size; a view's camera says its projection
 };
 
 struct SceneChoice {

@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 // builtin:atrium is atrium, scenes/hall.gltf is hall, scenes/hall/scene.gltf is hall.
 std::string shortName(const std::string& scene) {
     constexpr std::string_view builtin = "builtin:";
-    if (scene.starts_with(builtin))
-        return scene.substr(builtin.size());
+    if (scene.starts_with(builtin)) return scene.substr(builtin.size());
     const fs::path path(scene);
     const std::string stem = path.stem().string();
     const std::string folder = path.parent_path().filename().string();
@@ -28,19 +27,16 @@ std::string shortName(const std::string& scene) {
 
 std::string uniqueLabel(std::string label, std::set<std::string>& taken) {
     const std::string base = label;
-    for (int i = 2; !taken.insert(label).second; ++i)
-        label = base + " " + std::to_string(i);
+    for (int i = 2; !taken.insert(label).second; ++i) label = base + " " + std::to_string(i);
     return label;
 }
 
 Result<std::vector<lab::CameraView>> camerasOf(const lab::Scene& scene, const SceneChoice& choice) {
-    if (choice.cameras.empty())
-        return scene.cameras;
+    if (choice.cameras.empty()) return scene.cameras;
     std::vector<lab::CameraView> cameras;
     for (const std::string& name : choice.cameras) {
         auto camera = lab::findCamera(scene, name);
-        if (!camera)
-            return Error{camera.error().code, "'" + choice.scene + "': " + camera.error().message};
+        if (!camera) return Error{camera.error().code, "'" + choice.scene + "': " + camera.error().message};
         cameras.push_back(*std::move(camera));
     }
     return cameras;
@@ -48,8 +44,7 @@ Result<std::vector<lab::CameraView>> camerasOf(const lab::Scene& scene, const Sc
 
 std::vector<std::string> knownBackends() {
     std::vector<std::string> known = runner::backendNames();
-    for (const cpu::Isa isa : cpu::availableIsas())
-        known.push_back(cpu::name(isa));
+    for (const cpu::Isa isa : cpu::availableIsas()) known.push_back(cpu::name(isa));
     return known;
 }
 
@@ -60,12 +55,10 @@ Result<std::vector<View>> loadViews(const Sweep& sweep) {
     std::set<std::string> labels;
     for (const SceneChoice& choice : sweep.scenes) {
         auto scene = lab::loadScene(choice.scene, choice.viewFile);
-        if (!scene)
-            return scene.error();
+        if (!scene) return scene.error();
         const auto world = std::make_shared<const lab::Scene>(*std::move(scene));
         const auto cameras = camerasOf(*world, choice);
-        if (!cameras)
-            return cameras.error();
+        if (!cameras) return cameras.error();
         lab::PathTracerOptions options;
         options.extent = sweep.size;
         options.bounces = sweep.reference.bounces;
@@ -78,7 +71,8 @@ Result<std::vector<View>> loadViews(const Sweep& sweep) {
     return views;
 }
 
-Result<std::vector<ChartBackend>> createBackends(const std::string& what, const std::vector<std::string>& names,
+Result<std::vector<ChartBackend>> createBackends(const std::string& what,
+                                                 const std::vector<std::string>& names,
                                                  const std::string& device, int threads) {
     const std::vector<std::string> known = knownBackends();
     std::vector<ChartBackend> backends;
@@ -86,25 +80,20 @@ Result<std::vector<ChartBackend>> createBackends(const std::string& what, const 
     for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             std::string list;
-            for (const std::string& k : known)
-                list += (list.empty() ? "" : ", ") + k;
+            for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
             return invalidArgument(what + " holds \"" + name + "\"; some of " + list + " were expected");
         }
-        if (!taken.insert(name).second)
-            continue;
+        if (!taken.insert(name).second) continue;
         runner::BackendChoice choice;
         choice.threads = threads;
-        if (const auto isa = cpu::isaFromName(name))
-            choice.isa = *isa;
-        else
-            choice.backend = name;
-        if (choice.backend != "cpu")
-            choice.device = device;
+        if (const auto isa = cpu::isaFromName(name)) choice.isa = *isa;
+        else choice.backend = name;
+        if (choice.backend != "cpu") choice.device = device;
         auto backend = runner::createBackend(choice);
-        if (!backend)
-            return backend.error();
+        if (!backend) return backend.error();
         const runner::BackendInfo info = (*backend)->info();
-        backends.push_back({name, info.backend == "cpu" ? runner::toText(info) : info.device, *std::move(backend)});
+        backends.push_back(
+            {name, info.backend == "cpu" ? runner::toText(info) : info.device, *std::move(backend)});
     }
     if (backends.empty())
         return invalidArgument(what + " is empty; some of cpu, vulkan and opengl were expected");
@@ -115,7 +104,8 @@ std::string describeMachine() {
     std::string name = "unknown processor";
     std::ifstream information("/proc/cpuinfo");
     for (std::string line; std::getline(information, line);)
-        if (const size_t colon = line.find(": "); line.starts_with("model name") && colon != std::string::npos) {
+        if (const size_t colon = line.find(": ");
+            line.starts_with("model name") && colon != std::string::npos) {
             name = line.substr(colon + 2);
             break;
         }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/charts/workshop.hpp"
 
-#include "lab/rays/frame_check.hpp"
 #include "lab/light/reference_cache.hpp"
 #include "lab/measure/measurement.hpp"
+#include "lab/rays/frame_check.hpp"
 
 namespace rebound::charts {
 
@@ -21,25 +21,21 @@ lab::PathTracerOptions tracerOptions(const Sweep& sweep) {
 // A part of a longer step.
 lab::Progress partOf(const lab::Progress& whole, double from, double to) {
     return [&whole, from, to](double share) {
-        if (whole)
-            whole(from + (to - from) * share);
+        if (whole) whole(from + (to - from) * share);
     };
 }
 
 } // namespace
 
 Result<> LabWorkshop::prepareFrame(const View& view, const lab::Progress& progress) {
-    if (frameOf == view.label)
-        return {};
+    if (frameOf == view.label) return {};
     lab::FrameOptions options;
     options.extent = sweep.size;
     options.progress = progress;
     auto rendered = lab::renderFrame(*view.world, view.camera, options);
-    if (!rendered)
-        return rendered.error();
+    if (!rendered) return rendered.error();
     const auto nameOfImage = [&](const char* image) { return "'" + view.scene + "': the rendered " + image; };
-    if (auto valid = lab::checkFrame(*rendered, nameOfImage); !valid)
-        return valid;
+    if (auto valid = lab::checkFrame(*rendered, nameOfImage); !valid) return valid;
     frame = *std::move(rendered);
     // The truth counts light straight from emitters as direct light, so that senders must not send it again.
     frame.emission = {};
@@ -48,13 +44,11 @@ Result<> LabWorkshop::prepareFrame(const View& view, const lab::Progress& progre
 }
 
 Result<Truth> LabWorkshop::truth(const View& view, const lab::Progress& progress) {
-    if (auto prepared = prepareFrame(view, partOf(progress, 0.0, 0.1)); !prepared)
-        return prepared.error();
+    if (auto prepared = prepareFrame(view, partOf(progress, 0.0, 0.1)); !prepared) return prepared.error();
     lab::PathTracerOptions options = tracerOptions(sweep);
     options.progress = partOf(progress, 0.1, 1.0);
     auto traced = lab::cachedReference(*view.world, view.camera, options, references);
-    if (!traced)
-        return traced.error();
+    if (!traced) return traced.error();
     Truth truth;
     truth.light = std::move(traced->indirect);
     truth.visible = frame.depth;
@@ -66,17 +60,13 @@ Result<Truth> LabWorkshop::truth(const View& view, const lab::Progress& progress
 
 Result<Trial> LabWorkshop::measure(const View& view, const Setting& setting, ChartBackend& backend,
                                    const lab::Progress& progress) {
-    if (auto prepared = prepareFrame(view, {}); !prepared)
-        return prepared.error();
+    if (auto prepared = prepareFrame(view, {}); !prepared) return prepared.error();
     auto pipeline = measure::FramePipeline::create(frame, setting.settings, *backend.backend, precision);
-    if (!pipeline)
-        return pipeline.error();
+    if (!pipeline) return pipeline.error();
     auto measured = measure::measureFrames(*pipeline, {sweep.warmUp, sweep.frames, progress});
-    if (!measured)
-        return measured.error();
+    if (!measured) return measured.error();
     auto light = pipeline->indirect();
-    if (!light)
-        return light.error();
+    if (!light) return light.error();
     return Trial{std::move(measured->frame.milliseconds), *std::move(light)};
 }
 

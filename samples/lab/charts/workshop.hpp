@@ -4,8 +4,8 @@
 
 #include "lab/charts/sweep.hpp"
 #include "lab/rays/frame.hpp"
-#include "lab/scenes/scene.hpp"
 #include "lab/runner/runner.hpp"
+#include "lab/scenes/scene.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -15,11 +15,11 @@
 namespace rebound::charts {
 
 struct View {
-    std::string label;                       // such as "atrium nave", unique in a chart
-    std::string scene;                       // as given
+    std::string label; // such as "atrium nave", unique in a chart
+    std::string scene; // as given
     std::shared_ptr<const lab::Scene> world;
     lab::CameraView camera;
-    std::string contentKey;                  // a hash of all that its truth depends on
+    std::string contentKey; // a hash of all that its truth depends on
 };
 
 struct Truth {
@@ -72,7 +72,8 @@ Result<std::vector<View>> loadViews(const Sweep&);
 
 // cpu (its best instruction set), vulkan, opengl, or an instruction set of the CPU. `what` is what errors call the list;
 // device: part of a GPU's name.
-Result<std::vector<ChartBackend>> createBackends(const std::string& what, const std::vector<std::string>& names,
+Result<std::vector<ChartBackend>> createBackends(const std::string& what,
+                                                 const std::vector<std::string>& names,
                                                  const std::string& device, int threads);
 
 // The processor's name and its cores.

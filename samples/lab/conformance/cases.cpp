@@ -2,10 +2,10 @@
 #include "lab/conformance/cases.hpp"
 
 #include "lab/conformance/gbuffer.hpp"
-#include "lab/scenes/camera_matrices.hpp"
 #include "lab/rays/frame.hpp"
-#include "lab/scenes/scene_files.hpp"
 #include "lab/runner/texels.hpp"
+#include "lab/scenes/camera_matrices.hpp"
+#include "lab/scenes/scene_files.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -57,7 +57,8 @@ ScreenIndirectSettings settingsFor(Extent2D resolution) {
 
 using Spoil = std::function<void(GBuffer&, Random&)>;
 
-NamedCase hardCase(const std::string& name, Extent2D extent, const GBufferOptions& options, const Spoil& spoil = {}) {
+NamedCase hardCase(const std::string& name, Extent2D extent, const GBufferOptions& options,
+                   const Spoil& spoil = {}) {
     return {name, [=]() -> Result<Case> {
                 Random random(7);
                 GBuffer g = makeGBuffer(settingsFor(extent), options, random);
@@ -67,7 +68,8 @@ NamedCase hardCase(const std::string& name, Extent2D extent, const GBufferOption
 }
 
 void sprinkleNonNumbers(GBuffer& g, Random& random) {
-    constexpr float values[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+    constexpr float values[] = {std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::infinity(),
                                 -std::numeric_limits<float>::infinity(), -1.0f};
     for (lab::Image* image : {&g.frame.depth, &g.frame.normal, &g.frame.radiance})
         for (float& value : image->data)
@@ -80,7 +82,9 @@ void oneHotPixel(GBuffer& g, Random&) {
     std::fill_n(g.frame.radiance.at(e.width / 2, e.height / 2), 3, runner::largestHalf);
 }
 
-void makeBlack(GBuffer& g, Random&) { std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f); }
+void makeBlack(GBuffer& g, Random&) {
+    std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f);
+}
 
 Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D extent) {
     auto scene = lab::loadScene(name);
@@ -96,8 +100,14 @@ Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D ext
     if (!settings) return settings.error();
     const lab::Image outgoing = lab::outgoingRadiance(*frame);
     return caseOf({*settings,
-                   {lab::cameraMatrices(*view, extent), frame->depth, frame->normal, outgoing, frame->albedo, outgoing,
-                    {}, {}}},
+                   {lab::cameraMatrices(*view, extent),
+                    frame->depth,
+                    frame->normal,
+                    outgoing,
+                    frame->albedo,
+                    outgoing,
+                    {},
+                    {}}},
                   Precision::half);
 }
 
@@ -138,8 +148,8 @@ std::vector<NamedCase> sceneCases() {
     std::vector<NamedCase> cases;
     for (const char* scene : {"builtin:atrium", "builtin:cornell"})
         for (const char* preset : {"quarter-64", "half-256-5"})
-            cases.push_back({std::string(scene) + " " + preset,
-                             [=] { return sceneCase(scene, preset, extent); }});
+            cases.push_back(
+                {std::string(scene) + " " + preset, [=] { return sceneCase(scene, preset, extent); }});
     return cases;
 }
 

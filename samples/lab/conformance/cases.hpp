@@ -2,8 +2,8 @@
 // What backends are held against each other with: plans and inputs, every one made anew from its name and seed.
 #pragma once
 
-#include "rebound/techniques/screen_indirect.hpp"
 #include "lab/runner/runner.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -47,7 +47,8 @@ double relativeDifference(const lab::Image& reference, const lab::Image& value) 
     }
     // What halves cannot hold is nothing.
     constexpr double nothing = 1e-7;
-    return std::sqrt(squared) / std::max(std::sqrt(power), nothing * std::sqrt(double(reference.data.size())));
+    return std::sqrt(squared) /
+           std::max(std::sqrt(power), nothing * std::sqrt(double(reference.data.size())));
 }
 
 Report::Row& rowOf(Report& report, const std::string& contender, const std::string& kernel) {
@@ -75,11 +76,12 @@ void comparePass(const NamedCase& named, const Case& c, const std::string& conte
     const Pass& pass = c.plan.passes[passIndex];
     std::vector<PassImages> images;
     for (size_t i = 0; i < reference[passIndex].size(); ++i)
-        images.push_back({&c.plan.resources[size_t(reference[passIndex][i].resource)], &reference[passIndex][i].image,
-                          &value[passIndex][i].image});
+        images.push_back({&c.plan.resources[size_t(reference[passIndex][i].resource)],
+                          &reference[passIndex][i].image, &value[passIndex][i].image});
     const std::vector<Difference> differences = compare(pass.kernel, images, c.largestRadiance);
     for (size_t i = 0; i < images.size(); ++i) {
-        Finding finding{contender, named.name, pass.label, pass.kernel, images[i].resource->name, differences[i], {}, {}};
+        Finding finding{contender,      named.name, pass.label, pass.kernel, images[i].resource->name,
+                        differences[i], {},         {}};
         if (!differences[i].agrees()) {
             finding.reference = *images[i].reference;
             finding.value = *images[i].value;
@@ -151,7 +153,8 @@ Result<Report> run(const std::vector<NamedCase>& cases, std::vector<Contender>& 
             for (size_t pass = 0; pass < made->plan.passes.size(); ++pass)
                 comparePass(named, *made, contender.name, pass, reference->record, value->record, report);
             for (size_t i = 0; i < value->outputs.size(); ++i)
-                frames.add(contender.name, named.name, relativeDifference(reference->outputs[i], value->outputs[i]));
+                frames.add(contender.name, named.name,
+                           relativeDifference(reference->outputs[i], value->outputs[i]));
         }
         report.cases += 1;
         if (progress) progress(double(report.cases) / double(cases.size()));

@@ -15,7 +15,7 @@
 namespace rebound::conformance {
 
 struct Contender {
-    std::string name;  // in the report, such as "avx2" or "vulkan"
+    std::string name; // in the report, such as "avx2" or "vulkan"
     std::unique_ptr<runner::Backend> backend;
 };
 
@@ -31,7 +31,7 @@ struct FrameRow {
     std::string contender;
     double median = 0, maximum = 0; // over cases and outputs
     std::string worstCase;
-    size_t disagreements = 0;       // above allowedFrameDifference
+    size_t disagreements = 0; // above allowedFrameDifference
 };
 // Half-precision transients alone differ from the CPU's single-precision ones by 1e-3, and the few texels whose reduction
 // decides otherwise by more: measured up to 0.02 on pictures of some hundred pixels.
@@ -47,7 +47,7 @@ struct Report {
     };
     std::vector<Row> rows;
     std::vector<FrameRow> frames;
-    std::vector<Finding> disagreements; // the first of each row
+    std::vector<Finding> disagreements;  // the first of each row
     std::vector<std::string> complaints; // of drivers' checks, with the contender's name
     int cases = 0;
 
@@ -55,6 +55,7 @@ struct Report {
 };
 
 // Runs every case on the scalar CPU and on each contender. progress: called with the share that is done, 0 to 1.
-Result<Report> run(const std::vector<NamedCase>&, std::vector<Contender>&, const std::function<void(double)>& progress = {});
+Result<Report> run(const std::vector<NamedCase>&, std::vector<Contender>&,
+                   const std::function<void(double)>& progress = {});
 
 } // namespace rebound::conformance

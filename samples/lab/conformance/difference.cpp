@@ -90,17 +90,21 @@ struct Comparison {
 Tolerance toleranceOf(const std::string& kernel, const Resource& r, int channel, float largestRadiance) {
     constexpr double halfUlp = 1.0 / 1024.0, smallestHalf = 6.2e-5;
     if (isSurface(r))
-        return channel < 3 ? Tolerance{2e-5, 0.0, "square roots and divisions to a few units in the last place, Newton "
-                                                  "steps to 5e-7, four areas summed"}
+        return channel < 3 ? Tolerance{2e-5, 0.0,
+                                       "square roots and divisions to a few units in the last place, Newton "
+                                       "steps to 5e-7, four areas summed"}
                            : Tolerance{2e-6, 0.0, "a division, in each projection"};
     if (r.name.starts_with("light") && channel == 3)
         return {halfUlp, 2e-5, "1 is taken off a ratio of distances near it, which leaves its rounding"};
     if (kernel == "screen_indirect/gather")
         return {2.0 * halfUlp, smallestHalf + 2e-6 * double(largestRadiance),
-                "the half's rounding, which may differ by one; where surfaces lie in one plane the cosine is what rounding "
-                "leaves of a distance, 1e-6, times the brightest sender; halves below the smallest normal one may be 0"};
+                "the half's rounding, which may differ by one; where surfaces lie in one plane the cosine is "
+                "what rounding "
+                "leaves of a distance, 1e-6, times the brightest sender; halves below the smallest normal "
+                "one may be 0"};
     return {2.0 * halfUlp, smallestHalf,
-            "the half's rounding, up or to zero, on top of weights that agree to 1e-4; halves below the smallest normal "
+            "the half's rounding, up or to zero, on top of weights that agree to 1e-4; halves below the "
+            "smallest normal "
             "one may be 0"};
 }
 

@@ -30,11 +30,11 @@ struct Difference {
     double maximumRelative = 0; // of magnitudes above the absolute tolerance
     double maximumUlp = 0;      // in the format's last places, likewise
     size_t texels = 0;
-    size_t beyond = 0;          // texels with a channel beyond its tolerance
-    size_t decisions = 0;       // texels that rest on another decision, not among those beyond
+    size_t beyond = 0;    // texels with a channel beyond its tolerance
+    size_t decisions = 0; // texels that rest on another decision, not among those beyond
     int worstX = -1, worstY = -1, worstChannel = -1;
     float worstReference = 0, worstValue = 0;
-    double worstExcess = 0;     // difference over tolerance, of the worst
+    double worstExcess = 0; // difference over tolerance, of the worst
 
     bool agrees() const { return beyond == 0 && double(decisions) <= allowedDecisions * double(texels) + 1; }
 };
@@ -45,7 +45,8 @@ struct PassImages {
     const lab::Image* reference;
     const lab::Image* value;
 };
-std::vector<Difference> compare(const std::string& kernel, const std::vector<PassImages>&, float largestRadiance);
+std::vector<Difference> compare(const std::string& kernel, const std::vector<PassImages>&,
+                                float largestRadiance);
 
 // Keeps the larger figures of both.
 void merge(Difference& into, const Difference&);

@@ -11,7 +11,7 @@ namespace {
 
 // In a right-handed view space.
 struct Patch {
-    glm::dvec2 site;      // 0 to 1 on the screen: pixels belong to the nearest
+    glm::dvec2 site; // 0 to 1 on the screen: pixels belong to the nearest
     glm::dvec3 point, normal;
     glm::dvec3 radiance;
     bool sky;
@@ -46,7 +46,8 @@ Patch makePatch(const View& view, const GBufferOptions& options, Random& random)
     patch.site = {random.unit(), random.unit()};
     const glm::dvec2 at = view.plane(patch.site);
     const double distance = random.between(1.0, 20.0) * view.scale;
-    const glm::dvec3 toEye = view.perspective ? -glm::normalize(glm::dvec3(at, -1.0)) : glm::dvec3(0.0, 0.0, 1.0);
+    const glm::dvec3 toEye =
+        view.perspective ? -glm::normalize(glm::dvec3(at, -1.0)) : glm::dvec3(0.0, 0.0, 1.0);
     patch.point = view.perspective ? glm::dvec3(at, -1.0) * distance : glm::dvec3(at, -distance);
     patch.normal = unitVector(random);
     if (glm::dot(patch.normal, toEye) < 0.0) patch.normal = -patch.normal;
@@ -82,7 +83,8 @@ View viewOf(const GBufferConventions& c, double scale) {
 }
 
 float emptyDepth(const GBufferConventions& c) {
-    return c.depthEncoding == DepthEncoding::device && c.depthDirection == DepthDirection::forward ? 1.0f : 0.0f;
+    return c.depthEncoding == DepthEncoding::device && c.depthDirection == DepthDirection::forward ? 1.0f
+                                                                                                   : 0.0f;
 }
 
 } // namespace
@@ -106,10 +108,10 @@ GBuffer makeGBuffer(const ScreenIndirectSettings& settings, const GBufferOptions
             const glm::dvec2 screen((x + 0.5) / extent.width, (y + 0.5) / extent.height);
             const Patch& patch = nearestPatch(patches, screen);
             const double distance = view.meet(screen, patch);
-            if (patch.sky || !(distance > view.lens.nearDistance && distance < view.lens.farDistance)) continue;
+            if (patch.sky || !(distance > view.lens.nearDistance && distance < view.lens.farDistance))
+                continue;
             g.depth.at(x, y)[0] = lab::storedDepth(c, view.lens, distance);
-            store(g.normal, x, y,
-                  lab::storedNormal(c, g.camera.view, glm::vec3(toWorld * patch.normal)));
+            store(g.normal, x, y, lab::storedNormal(c, g.camera.view, glm::vec3(toWorld * patch.normal)));
             store(g.radiance, x, y, patch.radiance * random.between(0.5, 1.5));
         }
     return {settings, std::move(g)};

@@ -16,11 +16,11 @@ struct GBuffer {
 };
 
 struct GBufferOptions {
-    int patches = 8;               // planes that share the screen
-    double scale = 1;              // of all lengths
-    double skyShare = 0.15;        // of the patches
-    bool grazing = false;          // planes almost along the rays
-    double radianceDecades = 3;    // from 10^-d to 10^d
+    int patches = 8;            // planes that share the screen
+    double scale = 1;           // of all lengths
+    double skyShare = 0.15;     // of the patches
+    bool grazing = false;       // planes almost along the rays
+    double radianceDecades = 3; // from 10^-d to 10^d
 };
 
 // settings: the resolution and the conventions are taken from it.

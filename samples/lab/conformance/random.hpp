@@ -22,7 +22,9 @@ public:
     double unit() { return double(bits() >> 11) * 0x1p-53; } // 0 to 1, without 1
     double between(double low, double high) { return low + (high - low) * unit(); }
     double betweenDecades(double low, double high) { return low * std::pow(high / low, unit()); }
-    int integer(int low, int high) { return low + int(bits() % uint64_t(high - low + 1)); } // both ends included
+    int integer(int low, int high) {
+        return low + int(bits() % uint64_t(high - low + 1));
+    } // both ends included
     bool chance(double probability) { return unit() < probability; }
 
 private:

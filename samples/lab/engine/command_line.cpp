@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
-#include "lab/rays/camera_rays.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/rays/camera_rays.hpp"
 #include "lab/scenes/scene_files.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
@@ -47,7 +47,8 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
     o.out = program.out;
     std::string size = "1280x720";
     CLI::App app(program.description, program.name);
-    app.add_option("scene", o.scene, "a glTF 2.0 file, or builtin:atrium or builtin:cornell")->option_text("SCENE");
+    app.add_option("scene", o.scene, "a glTF 2.0 file, or builtin:atrium or builtin:cornell")
+        ->option_text("SCENE");
     app.add_option("--view", o.view, "a view file: cameras and lights (default: view.json beside the scene)");
     app.add_option("--camera", o.camera, "a camera's name (default: the first)");
     app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");
@@ -58,16 +59,18 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
     app.add_option("--device", o.device, program.device);
     app.add_flag("--validation", o.validation, program.validation);
     if (program.window)
-        app.add_flag("--window", o.window, "show a window instead of writing a picture: drag to turn, scroll to approach");
+        app.add_flag("--window", o.window,
+                     "show a window instead of writing a picture: drag to turn, scroll to approach");
     app.footer("Exit code: 0, or 2 with one sentence on standard error.");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
-        return end.get_exit_code() == int(CLI::ExitCodes::Success) ? app.exit(end) : fail(program, end.what());
+        return end.get_exit_code() == int(CLI::ExitCodes::Success) ? app.exit(end)
+                                                                   : fail(program, end.what());
     }
     if (!parseSize(size, o.size))
-        return fail(program, "--size is \"" + size + "\"; WIDTHxHEIGHT, each 1 to " + std::to_string(maximumExtent) +
-                                 " pixels, was expected");
+        return fail(program, "--size is \"" + size + "\"; WIDTHxHEIGHT, each 1 to " +
+                                 std::to_string(maximumExtent) + " pixels, was expected");
     if (o.frames && *o.frames < 1)
         return fail(program, "--frames is " + std::to_string(*o.frames) + "; 1 or more was expected");
     const auto done = loadAndRun(o, run);
@@ -84,12 +87,13 @@ int runProgram(int argc, char** argv, const ProgramText& program, const Run& run
     }
 }
 
-Result<> writePicture(const Options& o, const std::string& scene, const std::string& device, const lab::Image& composed,
-                      std::span<const PassTiming> timings, const MemoryUse& memory) {
+Result<> writePicture(const Options& o, const std::string& scene, const std::string& device,
+                      const lab::Image& composed, std::span<const PassTiming> timings,
+                      const MemoryUse& memory) {
     const lab::ToneCurve curve = lab::automaticToneCurve(composed);
     if (auto written = lab::writePng(o.out, lab::toneMap(composed, curve)); !written) return written;
-    std::printf("%s, %d x %d, preset %s, on %s\n", scene.c_str(), o.size.width, o.size.height, o.preset.c_str(),
-                device.c_str());
+    std::printf("%s, %d x %d, preset %s, on %s\n", scene.c_str(), o.size.width, o.size.height,
+                o.preset.c_str(), device.c_str());
     double sum = 0.0;
     for (const PassTiming& t : timings) {
         std::printf("%9.3f ms  %s\n", t.milliseconds, t.label.c_str());

@@ -33,7 +33,7 @@ int runProgram(int argc, char** argv, const ProgramText&,
                const std::function<Result<>(const Options&, const lab::Scene&, const lab::CameraView&)>&);
 
 // Writes the picture, row 0 on top, and says what it took.
-Result<> writePicture(const Options&, const std::string& scene, const std::string& device, const lab::Image& composed,
-                      std::span<const PassTiming>, const MemoryUse&);
+Result<> writePicture(const Options&, const std::string& scene, const std::string& device,
+                      const lab::Image& composed, std::span<const PassTiming>, const MemoryUse&);
 
 } // namespace rebound::engine

@@ -26,8 +26,9 @@ void addAreaLight(const lab::Light& light, std::vector<GpuLight>& lights) {
     const glm::vec3 up = glm::cross(light.direction, light.right);
     for (int i = 0; i < side * side; ++i) {
         const glm::vec2 at = (glm::vec2(i % side, i / side) + 0.5f) / float(side) - 0.5f;
-        lights.push_back(disc(light.position + light.right * (at.x * light.size.x) + up * (at.y * light.size.y),
-                              light.direction, light.intensity, light.size.x * light.size.y / (side * side), surface));
+        lights.push_back(
+            disc(light.position + light.right * (at.x * light.size.x) + up * (at.y * light.size.y),
+                 light.direction, light.intensity, light.size.x * light.size.y / (side * side), surface));
     }
 }
 
@@ -44,7 +45,9 @@ void addLight(const lab::Light& light, std::vector<GpuLight>& lights) {
                           {light.direction, std::cos(light.outerCone)},
                           {light.intensity, std::cos(light.innerCone)}});
         break;
-    case lab::LightType::area: addAreaLight(light, lights); break;
+    case lab::LightType::area:
+        addAreaLight(light, lights);
+        break;
     }
 }
 
@@ -65,8 +68,9 @@ std::vector<Emitter> emittersOf(const lab::Scene& scene) {
             Emitter e{{}, {}, &material, 0.0f, 0.0f};
             for (size_t c = 0; c < 3; ++c) {
                 e.corners[c] = mesh.positions[mesh.indices[i + c]];
-                e.coordinates[c] =
-                    mesh.textureCoordinates.empty() ? glm::vec2(0.0f) : mesh.textureCoordinates[mesh.indices[i + c]];
+                e.coordinates[c] = mesh.textureCoordinates.empty()
+                                       ? glm::vec2(0.0f)
+                                       : mesh.textureCoordinates[mesh.indices[i + c]];
             }
             e.area = 0.5f * glm::length(glm::cross(e.corners[1] - e.corners[0], e.corners[2] - e.corners[0]));
             if (!(e.area > 0.0f)) continue;
@@ -88,16 +92,18 @@ void addEmissiveSurfaces(const lab::Scene& scene, std::vector<GpuLight>& lights)
         auto chosen = std::lower_bound(emitters.begin(), emitters.end(), wanted,
                                        [](const Emitter& e, float x) { return e.end < x; });
         chosen = std::min(chosen, emitters.end() - 1);
-        const float root = std::sqrt(square.x), u = root * (1.0f - square.y), v = root * square.y, w = 1.0f - u - v;
+        const float root = std::sqrt(square.x), u = root * (1.0f - square.y), v = root * square.y,
+                    w = 1.0f - u - v;
         const glm::vec3* c = chosen->corners;
         const glm::vec2* t = chosen->coordinates;
         glm::vec3 radiance = chosen->material->emission;
         const float power = radiance.x + radiance.y + radiance.z; // by area, as it was chosen
         if (chosen->material->emissionTexture != lab::none)
-            radiance *= glm::vec3(lab::sampleTexture(scene.textures[size_t(chosen->material->emissionTexture)],
-                                                     t[0] * w + t[1] * u + t[2] * v));
-        lights.push_back(disc(c[0] * w + c[1] * u + c[2] * v, glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0])),
-                              radiance, total / power / float(count), twoSidedSurface));
+            radiance *= glm::vec3(lab::sampleTexture(
+                scene.textures[size_t(chosen->material->emissionTexture)], t[0] * w + t[1] * u + t[2] * v));
+        lights.push_back(disc(c[0] * w + c[1] * u + c[2] * v,
+                              glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0])), radiance,
+                              total / power / float(count), twoSidedSurface));
     }
 }
 

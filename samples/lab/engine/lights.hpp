@@ -15,11 +15,11 @@ struct GpuLight {
 // centre. Area lights are 16 discs each, and all emissive triangles together 64, chosen by power. The environment sends
 // nothing: a renderer that knows no occlusion would let it shine into closed rooms.
 struct LightSetup {
-    std::vector<GpuLight> lights;  // the shadowed ones first; never empty
+    std::vector<GpuLight> lights; // the shadowed ones first; never empty
     int shadowed = 0;
     int count = 0;
-    glm::mat4 shadowMatrix{1.0f};  // world to clip space, depth 0 near to 1 far
-    float shadowTexel = 0.0f;      // a texel's side: at unit distance [1] in perspective, else anywhere [m]
+    glm::mat4 shadowMatrix{1.0f}; // world to clip space, depth 0 near to 1 far
+    float shadowTexel = 0.0f;     // a texel's side: at unit distance [1] in perspective, else anywhere [m]
     bool shadowPerspective = false;
 };
 inline constexpr int shadowMapSize = 2048; // [texels]

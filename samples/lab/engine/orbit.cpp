@@ -13,10 +13,12 @@ namespace rebound::engine {
 void Orbit::turn(double right, double up) {
     const glm::vec3 arm = view.position - view.target;
     const glm::vec3 axis = glm::normalize(glm::cross(view.up, arm));
-    const glm::mat4 turned = glm::rotate(glm::rotate(glm::mat4(1.0f), float(-right), view.up), float(-up), axis);
+    const glm::mat4 turned =
+        glm::rotate(glm::rotate(glm::mat4(1.0f), float(-right), view.up), float(-up), axis);
     const glm::vec3 next = glm::mat3(turned) * arm;
     // Not over the poles, where up is along the view.
-    if (glm::length(glm::cross(glm::normalize(next), glm::normalize(view.up))) > 0.05f) view.position = view.target + next;
+    if (glm::length(glm::cross(glm::normalize(next), glm::normalize(view.up))) > 0.05f)
+        view.position = view.target + next;
 }
 
 void Orbit::listen(GLFWwindow* window) {
@@ -40,7 +42,8 @@ void Orbit::listen(GLFWwindow* window) {
 Error windowError(const char* what) {
     const char* reason = nullptr;
     glfwGetError(&reason);
-    return {ErrorCode::unsupported, std::string("--window: ") + what + (reason ? std::string(": ") + reason : "")};
+    return {ErrorCode::unsupported,
+            std::string("--window: ") + what + (reason ? std::string(": ") + reason : "")};
 }
 
 } // namespace rebound::engine

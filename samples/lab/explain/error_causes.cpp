@@ -2,9 +2,9 @@
 #include "lab/explain/error_causes.hpp"
 
 #include "lab/explain/screen_estimates.hpp"
+#include "lab/runner/runner.hpp"
 #include "lab/scenes/camera_matrices.hpp"
 #include "rebound/math/rings.hpp"
-#include "lab/runner/runner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,7 @@ Result<> gatherAllTexels(Plan& plan, const ScreenIndirectSettings& settings) {
         std::vector<detail::RingSample> samples;
         for (const RingTexel& texel : ringTexels({settings.ringRadius, level == 0, open}, pass->grid))
             samples.push_back({texel.offset, texel.weight, 0.0f});
-        if (samples.empty())
-            continue;
+        if (samples.empty()) continue;
         plan.resources[size_t(ring)] = bufferResource(label + " ring", samples);
         detail::GatherConstants values;
         std::vector<std::byte>& bytes = plan.resources[size_t(constants)].data;
@@ -56,22 +55,17 @@ public:
         settings.compose = false;
         settings.onlyLevel = {};
         auto plan = planScreenIndirect(settings);
-        if (!plan)
-            return plan.error();
+        if (!plan) return plan.error();
         if (allTexels)
-            if (auto changed = gatherAllTexels(*plan, settings); !changed)
-                return changed.error();
+            if (auto changed = gatherAllTexels(*plan, settings); !changed) return changed.error();
         const Camera camera = lab::cameraMatrices(frame.camera, settings.resolution);
         auto inputs = screenIndirectInputs(
             settings,
             ScreenIndirectFrame<Image>{camera, frame.depth, frame.normal, radiance, {}, {}, {}, {}});
-        if (!inputs)
-            return inputs.error();
+        if (!inputs) return inputs.error();
         auto prepared = backend.prepare(*plan, *inputs, {runner::Precision::single, false});
-        if (!prepared)
-            return prepared.error();
-        if (auto ran = (*prepared)->run(); !ran)
-            return ran.error();
+        if (!prepared) return prepared.error();
+        if (auto ran = (*prepared)->run(); !ran) return ran.error();
         return (*prepared)->read("indirect");
     }
 
@@ -85,8 +79,7 @@ private:
 void measure(Cause& cause, const Image& whole, const Image& depth, double truthMean) {
     double sum = 0.0, squared = 0.0, along = 0.0, wholeSquared = 0.0, count = 0.0;
     for (size_t pixel = 0; pixel < depth.data.size(); ++pixel) {
-        if (!(depth.data[pixel] > 0.0f))
-            continue;
+        if (!(depth.data[pixel] > 0.0f)) continue;
         for (size_t c = 0; c < 3; ++c) {
             const double d = double(cause.difference.data[pixel * 3 + c]);
             const double w = double(whole.data[pixel * 3 + c]);
@@ -97,8 +90,7 @@ void measure(Cause& cause, const Image& whole, const Image& depth, double truthM
             count += 1.0;
         }
     }
-    if (!(count > 0.0 && truthMean > 0.0))
-        return;
+    if (!(count > 0.0 && truthMean > 0.0)) return;
     cause.bias = sum / count / truthMean;
     cause.rms = std::sqrt(squared / count) / truthMean;
     cause.part = wholeSquared > 0.0 ? along / std::sqrt(wholeSquared * count) / truthMean : 0.0;
@@ -106,8 +98,7 @@ void measure(Cause& cause, const Image& whole, const Image& depth, double truthM
 
 Image minus(const Image& a, const Image& b) {
     Image difference = a;
-    for (size_t i = 0; i < difference.data.size(); ++i)
-        difference.data[i] -= b.data[i];
+    for (size_t i = 0; i < difference.data.size(); ++i) difference.data[i] -= b.data[i];
     return difference;
 }
 
@@ -150,8 +141,7 @@ Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options
     runner::BackendChoice cpu;
     cpu.threads = options.threads;
     auto backend = runner::createBackend(cpu);
-    if (!backend)
-        return backend.error();
+    if (!backend) return backend.error();
     TechniqueRuns technique(frame, **backend);
     ScreenIndirectSettings given = options.settings;
     given.conventions.projection =
@@ -169,11 +159,9 @@ Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options
          {std::tuple{&runs.result, given, false}, std::tuple{&runs.allSamples, given, true},
           std::tuple{&runs.startSum, oneLevel, true}, std::tuple{&runs.fullSum, full, true}}) {
         auto run = technique.run(settings, allTexels);
-        if (!run)
-            return run.error();
+        if (!run) return run.error();
         *image = *std::move(run);
-        if (options.progress)
-            options.progress(techniqueShare * double(++done) / 4.0);
+        if (options.progress) options.progress(techniqueShare * double(++done) / 4.0);
     }
     return runs;
 }
@@ -233,19 +221,15 @@ Result<Explanation> explainError(const lab::Scene& scene, const lab::CameraView&
     const Extent2D extent = options.settings.resolution;
     const auto frame =
         lab::renderFrame(scene, camera, {.extent = extent, .lightSamples = 64, .threads = options.threads});
-    if (!frame)
-        return frame.error();
+    if (!frame) return frame.error();
     auto runs = runTechnique(*frame, options);
-    if (!runs)
-        return runs.error();
+    if (!runs) return runs.error();
     const lab::Progress progress = [&](double share) {
-        if (options.progress)
-            options.progress(techniqueShare + (1.0 - techniqueShare) * share);
+        if (options.progress) options.progress(techniqueShare + (1.0 - techniqueShare) * share);
     };
-    auto screen = estimateFromScreen(
-        scene, camera, {extent, options.bounces, options.samples, options.threads, progress});
-    if (!screen)
-        return screen.error();
+    auto screen = estimateFromScreen(scene, camera,
+                                     {extent, options.bounces, options.samples, options.threads, progress});
+    if (!screen) return screen.error();
     return assemble(*std::move(runs), *std::move(screen), frame->depth);
 }
 

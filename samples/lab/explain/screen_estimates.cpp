@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/explain/screen_estimates.hpp"
 
-#include "lab/rays/camera_rays.hpp"
 #include "lab/images/luminance.hpp"
-#include "lab/rays/parallel_rows.hpp"
 #include "lab/light/path_walk.hpp"
+#include "lab/rays/camera_rays.hpp"
+#include "lab/rays/parallel_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,7 @@ public:
 
     ScreenEstimates run() {
         lab::parallelRows(options.extent.height, options.threads, options.progress, [this](int y) {
-            for (int x = 0; x < options.extent.width; ++x)
-                estimatePixel(x, y);
+            for (int x = 0; x < options.extent.width; ++x) estimatePixel(x, y);
         });
         return std::move(estimates);
     }
@@ -72,8 +71,7 @@ private:
 
             void add(int bounces, glm::vec3 radiance) {
                 (bounces == 0 ? gathered.first : gathered.later) += radiance;
-                if (isSeen)
-                    gathered.screen += radiance;
+                if (isSeen) gathered.screen += radiance;
             }
             bool enter(int, const Reflector& at) {
                 isSeen = isSeen && estimator.sightOf(at.point) == Sight::seen;
@@ -100,12 +98,10 @@ private:
             // Surfaces nearer to each other than rounding tells apart count as one.
             ray.minimum = distance + std::max(lab::endClearance(distance), 1e-5f);
             const auto hit = scene.locate(ray);
-            if (!hit)
-                break;
+            if (!hit) break;
             distance = hit->distance;
             const Reflector sender = reflectorAt(*hit, ray.direction);
-            if (sightOf(sender.point) != Sight::seen)
-                continue;
+            if (sightOf(sender.point) != Sight::seen) continue;
             recorder.sum += light.fromPoints(sender);
             lab::walkPath({scene, light}, sender, sequence, recorder);
         }
@@ -120,12 +116,10 @@ private:
 
     void addPath(const SurfacePoint& receiver, lab::SampleSequence sequence, Sums& sums) const {
         const glm::vec3 direction = lab::cosineDirection(receiver.shadingNormal, sequence.next());
-        if (lab::receivedCosine(receiver, direction) == 0.0f)
-            return;
+        if (lab::receivedCosine(receiver, direction) == 0.0f) return;
         const lab::Ray ray{receiver.position + receiver.geometricNormal * receiver.clearance, direction};
         const auto hit = scene.locate(ray);
-        if (!hit)
-            return;
+        if (!hit) return;
         const Reflector sender = reflectorAt(*hit, direction);
         const Sight sight = sightOf(sender.point);
         const Gathered gathered = follow(sender, sight == Sight::seen, sequence);
@@ -133,8 +127,7 @@ private:
             sums.withoutVisibility += gathered.first;
             sums.withVisibility += gathered.first;
         }
-        if (sight != Sight::outside)
-            sums.inView += gathered.first;
+        if (sight != Sight::outside) sums.inView += gathered.first;
         sums.first += gathered.first;
         sums.all += gathered.first + gathered.later;
         sums.squared += std::pow(double(lab::luminance(gathered.first + gathered.later)), 2.0);
@@ -146,8 +139,7 @@ private:
         const lab::CameraRay through = rays.throughPixel(x, y);
         const auto hit = scene.intersect(
             {glm::vec3(through.origin), glm::vec3(through.direction), camera.nearPlane, camera.farPlane});
-        if (!hit)
-            return;
+        if (!hit) return;
         Sums sums;
         const uint32_t seed = lab::hashBits(lab::hashBits(uint32_t(x), 3u), uint32_t(y));
         for (int i = 0; i < options.samples; ++i)
@@ -185,15 +177,11 @@ Result<ScreenEstimates> estimateFromScreen(const lab::Scene& scene, const lab::C
     tracing.bounces = options.bounces;
     tracing.samples = options.samples;
     tracing.threads = options.threads;
-    if (auto valid = lab::validate(tracing); !valid)
-        return valid.error();
-    if (options.bounces < 1)
-        return invalidArgument("path tracer option bounces is 0; expected 1 to 64");
-    if (auto valid = lab::validate(camera); !valid)
-        return valid.error();
+    if (auto valid = lab::validate(tracing); !valid) return valid.error();
+    if (options.bounces < 1) return invalidArgument("path tracer option bounces is 0; expected 1 to 64");
+    if (auto valid = lab::validate(camera); !valid) return valid.error();
     const auto embree = lab::EmbreeScene::build(scene);
-    if (!embree)
-        return embree.error();
+    if (!embree) return embree.error();
     return Estimator(*embree, camera, options).run();
 }
 

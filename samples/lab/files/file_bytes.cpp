@@ -12,14 +12,12 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& file, size_t lim
     const std::string subject = file == owner ? "the file" : "its file '" + file.string() + "'";
     std::error_code failure;
     const auto status = std::filesystem::status(file, failure);
-    if (!std::filesystem::exists(status))
-        refuse(subject + " does not exist", ErrorCode::notFound);
+    if (!std::filesystem::exists(status)) refuse(subject + " does not exist", ErrorCode::notFound);
     // Pipes and devices would block or never end.
     if (!std::filesystem::is_regular_file(status))
         refuse(subject + " is not a regular file", ErrorCode::inputOutput);
     const auto size = std::filesystem::file_size(file, failure);
-    if (failure)
-        refuse(subject + " cannot be read: " + failure.message(), ErrorCode::inputOutput);
+    if (failure) refuse(subject + " cannot be read: " + failure.message(), ErrorCode::inputOutput);
     if (size > limit)
         refuse(subject + " has " + std::to_string(size) + " bytes; at most " + std::to_string(limit) +
                " are read");

@@ -31,13 +31,11 @@ private:
 // Names and other libraries' messages may hold anything; an error is one line of bearable length.
 inline std::string oneLine(std::string text) {
     constexpr size_t longest = 600;
-    if (text.size() > longest)
-        text = text.substr(0, longest) + "...";
+    if (text.size() > longest) text = text.substr(0, longest) + "...";
     while (!text.empty() && (text.back() == '\n' || text.back() == '.' || text.back() == ' '))
         text.pop_back();
     for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            c = ' ';
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     return text;
 }
 

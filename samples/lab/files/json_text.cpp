@@ -16,14 +16,10 @@ void checkDepth(std::string_view text) {
     bool inString = false;
     for (size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
-        if (c == '"')
-            inString = !inString;
-        else if (inString)
-            i += c == '\\' ? 1 : 0;
-        else if (c == '[' || c == '{')
-            ++depth;
-        else if (c == ']' || c == '}')
-            --depth;
+        if (c == '"') inString = !inString;
+        else if (inString) i += c == '\\' ? 1 : 0;
+        else if (c == '[' || c == '{') ++depth;
+        else if (c == ']' || c == '}') --depth;
         if (depth > deepestJson)
             refuse("its JSON is nested deeper than " + std::to_string(deepestJson) + " levels");
     }
@@ -39,8 +35,7 @@ nlohmann::json parseJsonObject(std::string_view text, const char* kind) {
     } catch (const nlohmann::json::exception& failure) {
         refuse(std::string("it is not ") + kind + ": " + failure.what());
     }
-    if (!root.is_object())
-        refuse(std::string("it is not ") + kind + ": its JSON is not an object");
+    if (!root.is_object()) refuse(std::string("it is not ") + kind + ": its JSON is not an object");
     return root;
 }
 

@@ -26,8 +26,7 @@ int writeAndClose(std::FILE* stream, std::span<const std::byte> bytes) {
     const int writeError = errno;
     errno = 0;
     const bool closed = std::fclose(stream) == 0;
-    if (flushed && closed)
-        return 0;
+    if (flushed && closed) return 0;
     const int reason = flushed ? errno : writeError;
     return reason == 0 ? EIO : reason;
 }
@@ -38,10 +37,8 @@ std::FILE* openTemporary(const fs::path& folder, fs::path& temporary) {
         1000; // names that other writers in this folder may hold, or have left in a crash
     for (int i = 0; i < attempts; ++i) {
         temporary = folder / (".rebound-" + std::to_string(i) + ".partial");
-        if (std::FILE* stream = std::fopen(temporary.c_str(), "wbx"))
-            return stream;
-        if (errno != EEXIST)
-            return nullptr;
+        if (std::FILE* stream = std::fopen(temporary.c_str(), "wbx")) return stream;
+        if (errno != EEXIST) return nullptr;
     }
     return nullptr;
 }
@@ -49,8 +46,7 @@ std::FILE* openTemporary(const fs::path& folder, fs::path& temporary) {
 Result<> writeDirectly(const fs::path& path, std::span<const std::byte> bytes) {
     std::FILE* stream = std::fopen(path.c_str(), "wb");
     const int error = stream ? writeAndClose(stream, bytes) : errno;
-    if (error != 0)
-        return unwritable(path, std::strerror(error));
+    if (error != 0) return unwritable(path, std::strerror(error));
     return {};
 }
 
@@ -59,21 +55,16 @@ Result<> writeDirectly(const fs::path& path, std::span<const std::byte> bytes) {
 Result<> writeFile(const fs::path& path, std::span<const std::byte> bytes) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
-    if (path.empty() || !path.has_filename())
-        return unwritable(path, "expected a file's name");
-    if (fs::is_directory(status))
-        return unwritable(path, "it is a folder");
-    if (fs::exists(status) && !fs::is_regular_file(status))
-        return writeDirectly(path, bytes);
+    if (path.empty() || !path.has_filename()) return unwritable(path, "expected a file's name");
+    if (fs::is_directory(status)) return unwritable(path, "it is a folder");
+    if (fs::exists(status) && !fs::is_regular_file(status)) return writeDirectly(path, bytes);
 
     std::error_code failure;
     const fs::path target = fs::exists(status) ? fs::canonical(path, failure) : path;
-    if (failure)
-        return unwritable(path, failure.message());
+    if (failure) return unwritable(path, failure.message());
     fs::path temporary;
     std::FILE* stream = openTemporary(target.parent_path(), temporary);
-    if (!stream)
-        return unwritable(path, std::strerror(errno));
+    if (!stream) return unwritable(path, std::strerror(errno));
     if (const int error = writeAndClose(stream, bytes)) {
         fs::remove(temporary, ignored);
         return unwritable(path, std::strerror(error));

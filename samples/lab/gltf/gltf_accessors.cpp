@@ -45,8 +45,7 @@ void requireComponentType(int type, const std::string& name) {
 // Places elements into a buffer view, or refuses those that reach beyond its end.
 void place(Elements& elements, std::span<const uint8_t> view, size_t offset) {
     const size_t size = elements.elementSize();
-    if (elements.stride == 0)
-        elements.stride = size;
+    if (elements.stride == 0) elements.stride = size;
     if (elements.stride < size)
         refuse(elements.name + " has elements of " + std::to_string(size) + " bytes at a stride of " +
                std::to_string(elements.stride));
@@ -67,8 +66,7 @@ Elements denseElements(const tinygltf::Model& model, int index) {
     elements.components = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type));
     elements.normalized = accessor.normalized;
     requireComponentType(elements.componentType, elements.name);
-    if (elements.count == 0)
-        refuse(elements.name + " has no elements");
+    if (elements.count == 0) refuse(elements.name + " has no elements");
     if (accessor.bufferView >= 0) {
         elements.stride = itemAt(model.bufferViews, accessor.bufferView, "buffer view").byteStride;
         place(elements, bufferViewBytes(model, accessor.bufferView), accessor.byteOffset);
@@ -100,8 +98,7 @@ double component(const Elements& elements, const uint8_t* bytes) {
 
 float finiteFloat(const Elements& elements, const uint8_t* bytes) {
     const float value = static_cast<float>(component(elements, bytes));
-    if (!std::isfinite(value))
-        refuse(elements.name + " holds a value that is not finite");
+    if (!std::isfinite(value)) refuse(elements.name + " holds a value that is not finite");
     return value;
 }
 
@@ -170,8 +167,7 @@ std::vector<Value> read(const tinygltf::Model& model, int index, int components,
         for (size_t i = 0; i < elements.count; ++i)
             copyElement(elements, i, values.data() + i * static_cast<size_t>(components), convert);
     const tinygltf::Accessor& accessor = model.accessors[static_cast<size_t>(index)];
-    if (accessor.sparse.isSparse)
-        applySparse(model, accessor, elements, values, convert);
+    if (accessor.sparse.isSparse) applySparse(model, accessor, elements, values, convert);
     return values;
 }
 

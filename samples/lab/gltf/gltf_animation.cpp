@@ -2,8 +2,8 @@
 // Keyframe interpolation as in glTF 2.0, appendix C.
 #include "lab/gltf/gltf_nodes.hpp"
 
-#include "lab/gltf/gltf_accessors.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_accessors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +30,9 @@ struct Track {
 };
 
 Interpolation interpolationNamed(const std::string& name) {
-    if (name.empty() || name == "LINEAR")
-        return Interpolation::linear;
-    if (name == "STEP")
-        return Interpolation::step;
-    if (name == "CUBICSPLINE")
-        return Interpolation::cubicSpline;
+    if (name.empty() || name == "LINEAR") return Interpolation::linear;
+    if (name == "STEP") return Interpolation::step;
+    if (name == "CUBICSPLINE") return Interpolation::cubicSpline;
     refuse("an animation has the interpolation '" + name + "'; expected LINEAR, STEP or CUBICSPLINE");
 }
 
@@ -63,8 +60,7 @@ Track readTrack(const tinygltf::Model& model, const tinygltf::AnimationSampler& 
 
 std::vector<double> keyValue(const Track& track, size_t key) {
     std::vector<double> result(track.width);
-    for (size_t i = 0; i < track.width; ++i)
-        result[i] = track.at(key, Track::value, i);
+    for (size_t i = 0; i < track.width; ++i) result[i] = track.at(key, Track::value, i);
     return result;
 }
 
@@ -90,25 +86,21 @@ glm::dquat quaternion(const std::vector<double>& v) {
 std::vector<double> sample(const Track& track, double time) {
     const auto after = std::upper_bound(track.times.begin(), track.times.end(), time,
                                         [](double t, float key) { return t < static_cast<double>(key); });
-    if (after == track.times.begin())
-        return keyValue(track, 0);
+    if (after == track.times.begin()) return keyValue(track, 0);
     const auto next = static_cast<size_t>(after - track.times.begin());
     const size_t key = next - 1;
-    if (after == track.times.end() || track.interpolation == Interpolation::step)
-        return keyValue(track, key);
+    if (after == track.times.end() || track.interpolation == Interpolation::step) return keyValue(track, key);
     const double begin = static_cast<double>(track.times[key]);
     const double duration = static_cast<double>(track.times[next]) - begin;
     const double t = (time - begin) / duration;
-    if (track.interpolation == Interpolation::cubicSpline)
-        return hermite(track, key, t, duration);
+    if (track.interpolation == Interpolation::cubicSpline) return hermite(track, key, t, duration);
     std::vector<double> from = keyValue(track, key);
     const std::vector<double> to = keyValue(track, next);
     if (track.isRotation) {
         const glm::dquat q = glm::slerp(quaternion(from), quaternion(to), t);
         return {q.x, q.y, q.z, q.w};
     }
-    for (size_t i = 0; i < track.width; ++i)
-        from[i] += t * (to[i] - from[i]);
+    for (size_t i = 0; i < track.width; ++i) from[i] += t * (to[i] - from[i]);
     return from;
 }
 
@@ -120,8 +112,7 @@ size_t morphTargetCount(const tinygltf::Model& model, const tinygltf::Node& node
 void applyChannel(const tinygltf::Model& model, const tinygltf::Animation& animation,
                   const tinygltf::AnimationChannel& channel, double time, std::vector<NodePose>& poses) {
     // glTF has readers skip a channel without a node: an extension animates something else.
-    if (channel.target_node < 0)
-        return;
+    if (channel.target_node < 0) return;
     const tinygltf::Node& node = itemAt(model.nodes, channel.target_node, "node");
     NodePose& pose = poses[static_cast<size_t>(channel.target_node)];
     const std::string& path = channel.target_path;
@@ -138,21 +129,16 @@ void applyChannel(const tinygltf::Model& model, const tinygltf::Animation& anima
     const tinygltf::AnimationSampler& sampler =
         itemAt(animation.samplers, channel.sampler, "animation sampler");
     std::vector<double> v = sample(readTrack(model, sampler, width, isRotation), time);
-    if (isRotation)
-        pose.rotation = quaternion(v);
-    else if (isWeights)
-        pose.morphWeights = std::move(v);
-    else
-        (path == "scale" ? pose.scale : pose.translation) = {v[0], v[1], v[2]};
+    if (isRotation) pose.rotation = quaternion(v);
+    else if (isWeights) pose.morphWeights = std::move(v);
+    else (path == "scale" ? pose.scale : pose.translation) = {v[0], v[1], v[2]};
 }
 
 const tinygltf::Animation& animationNamed(const tinygltf::Model& model, const std::string& name) {
-    if (name.empty())
-        return model.animations.front();
+    if (name.empty()) return model.animations.front();
     std::string known;
     for (const tinygltf::Animation& animation : model.animations) {
-        if (animation.name == name)
-            return animation;
+        if (animation.name == name) return animation;
         known += (known.empty() ? "'" : ", '") + animation.name + "'";
     }
     refuse("it has no animation '" + name + "'" + (known.empty() ? "" : "; its animations are " + known),
@@ -162,8 +148,7 @@ const tinygltf::Animation& animationNamed(const tinygltf::Model& model, const st
 } // namespace
 
 void applyAnimation(const tinygltf::Model& model, const GltfOptions& options, std::vector<NodePose>& poses) {
-    if (!options.animate || (options.animation.empty() && model.animations.empty()))
-        return;
+    if (!options.animate || (options.animation.empty() && model.animations.empty())) return;
     if (!std::isfinite(options.time))
         refuse("the time of animation '" + options.animation + "' is not finite", ErrorCode::invalidArgument);
     const tinygltf::Animation& animation = animationNamed(model, options.animation);

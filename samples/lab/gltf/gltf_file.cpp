@@ -2,9 +2,9 @@
 #include "lab/gltf/gltf_file.hpp"
 
 #include "lab/files/file_bytes.hpp"
-#include "lab/gltf/gltf_structure.hpp"
 #include "lab/files/input_error.hpp"
 #include "lab/files/json_text.hpp"
+#include "lab/gltf/gltf_structure.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -30,8 +30,7 @@ uint32_t littleEndian(const uint8_t* bytes) {
 Contents splitBinary(const std::vector<uint8_t>& bytes) {
     constexpr size_t header = 12, chunkHeader = 8;
     constexpr uint32_t jsonChunk = 0x4E4F534A, binaryChunk = 0x004E4942;
-    if (bytes.size() < header + chunkHeader)
-        refuse("it ends within the header of a binary glTF file");
+    if (bytes.size() < header + chunkHeader) refuse("it ends within the header of a binary glTF file");
     if (littleEndian(&bytes[4]) != 2)
         refuse("it is binary glTF of version " + std::to_string(littleEndian(&bytes[4])) + "; expected 2");
     if (littleEndian(&bytes[8]) != bytes.size())
@@ -42,10 +41,8 @@ Contents splitBinary(const std::vector<uint8_t>& bytes) {
     if (littleEndian(&bytes[16]) != jsonChunk || jsonEnd > bytes.size() || jsonLength % 4 != 0)
         refuse("its JSON chunk is damaged or missing");
     Contents contents{reinterpret_cast<const char*>(&bytes[header + chunkHeader]), jsonLength, 0, true};
-    if (jsonEnd == bytes.size())
-        return contents;
-    if (jsonEnd + chunkHeader > bytes.size())
-        refuse("it ends within the header of its binary chunk");
+    if (jsonEnd == bytes.size()) return contents;
+    if (jsonEnd + chunkHeader > bytes.size()) refuse("it ends within the header of its binary chunk");
     contents.binarySize = littleEndian(&bytes[jsonEnd]);
     if (littleEndian(&bytes[jsonEnd + 4]) != binaryChunk ||
         jsonEnd + chunkHeader + contents.binarySize > bytes.size())
@@ -54,8 +51,7 @@ Contents splitBinary(const std::vector<uint8_t>& bytes) {
 }
 
 Contents split(const std::vector<uint8_t>& bytes) {
-    if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0)
-        return splitBinary(bytes);
+    if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) return splitBinary(bytes);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size(), 0, false};
 }
 
@@ -101,8 +97,7 @@ std::filesystem::path resolveUri(const std::filesystem::path& gltfFile, const st
         decoded += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
         i += escaped ? 2 : 0;
     }
-    if (decoded.find('\0') != std::string::npos)
-        refuse("a URI holds a zero character");
+    if (decoded.find('\0') != std::string::npos) refuse("a URI holds a zero character");
     return gltfFile.parent_path() / decoded;
 }
 
@@ -116,8 +111,7 @@ tinygltf::Model readGltfFile(const std::filesystem::path& file) {
     BufferFiles files{file, {}, 0};
     for (GltfBufferSource& buffer : checkGltfStructure(
              parseJsonObject({contents.json, contents.jsonLength}, "glTF"), contents.binarySize))
-        if (buffer.external)
-            files.buffers.push_back(std::move(buffer));
+        if (buffer.external) files.buffers.push_back(std::move(buffer));
 
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(keepEncoded, nullptr);
@@ -132,8 +126,7 @@ tinygltf::Model readGltfFile(const std::filesystem::path& file) {
                              : reader.LoadASCIIFromString(&model, &errors, &warnings, contents.json,
                                                           static_cast<unsigned>(contents.jsonLength), {});
     // tinygltf drops what it cannot read, and goes on.
-    if (!success || !errors.empty())
-        refuse("it is not valid glTF: " + errors);
+    if (!success || !errors.empty()) refuse("it is not valid glTF: " + errors);
     return model;
 }
 

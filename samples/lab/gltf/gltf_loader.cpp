@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scenes/scene_files.hpp"
 
+#include "lab/files/input_error.hpp"
 #include "lab/gltf/gltf_file.hpp"
 #include "lab/gltf/gltf_meshes.hpp"
 #include "lab/gltf/gltf_nodes.hpp"
 #include "lab/gltf/gltf_textures.hpp"
 #include "lab/gltf/gltf_views.hpp"
-#include "lab/files/input_error.hpp"
 
 namespace rebound::lab {
 
@@ -27,8 +27,7 @@ Result<Scene> loadGltf(const std::filesystem::path& file, const GltfOptions& opt
         scene.textures = textures.take();
         scene.cameras = readCameras(model, nodes, world);
         scene.lights = readLights(model, nodes, world);
-        if (const Result<> valid = validate(scene); !valid)
-            refuse(valid.error().message);
+        if (const Result<> valid = validate(scene); !valid) refuse(valid.error().message);
         return scene;
     };
     return guardInput(file, read);

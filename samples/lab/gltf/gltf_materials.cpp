@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_materials.hpp"
 
-#include "lab/gltf/gltf_accessors.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_accessors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,16 +23,14 @@ float share(double value, const char* what, const std::string& subject) {
 
 double number(const tinygltf::Value& value, const char* what, const std::string& subject) {
     const double result = value.IsNumber() ? value.GetNumberAsDouble() : NAN;
-    if (!std::isfinite(result))
-        refuse(subject + " has a " + what + " that is not a finite number");
+    if (!std::isfinite(result)) refuse(subject + " has a " + what + " that is not a finite number");
     return result;
 }
 
 glm::dvec2 pair(const tinygltf::Value& transform, const char* key, double otherwise,
                 const std::string& subject) {
     const tinygltf::Value* values = member(transform, key);
-    if (!values)
-        return glm::dvec2(otherwise);
+    if (!values) return glm::dvec2(otherwise);
     if (values->ArrayLen() != 2)
         refuse(subject + " has a texture transform whose '" + key + "' is not two numbers");
     return {number(values->Get(0), key, subject), number(values->Get(1), key, subject)};
@@ -60,8 +58,7 @@ TextureMapping mappingOf(const tinygltf::TextureInfo& info, const std::string& s
         if (const tinygltf::Value* set = member(extension->second, "texCoord"))
             mapping.set = set->IsInt() ? set->GetNumberAsInt() : none;
     }
-    if (mapping.set < 0)
-        refuse(subject + " names no set of texture coordinates");
+    if (mapping.set < 0) refuse(subject + " names no set of texture coordinates");
     return mapping;
 }
 
@@ -95,8 +92,7 @@ Material withoutTextures(const tinygltf::Material& source, const std::string& su
         refuse(subject + " has the alpha mode '" + source.alphaMode + "'; expected OPAQUE, MASK or BLEND");
     material.alphaMasked = source.alphaMode == "MASK";
     material.alphaCutoff = static_cast<float>(source.alphaCutoff);
-    if (!std::isfinite(material.alphaCutoff))
-        refuse(subject + " has an alpha cutoff that is not finite");
+    if (!std::isfinite(material.alphaCutoff)) refuse(subject + " has an alpha cutoff that is not finite");
     return material;
 }
 

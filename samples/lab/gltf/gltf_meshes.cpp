@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_meshes.hpp"
 
+#include "lab/files/input_error.hpp"
 #include "lab/gltf/gltf_accessors.hpp"
 #include "lab/gltf/gltf_primitive.hpp"
 #include "lab/gltf/gltf_skinning.hpp"
-#include "lab/files/input_error.hpp"
 
 #include <algorithm>
 #include <map>
@@ -47,8 +47,7 @@ std::vector<glm::vec3> placeNormals(const std::vector<glm::vec3>& normals, const
     placed.reserve(normals.size());
     glm::dmat3 matrix = normals.empty() ? glm::dmat3(1.0) : normalMatrix(placement.of(0));
     for (size_t i = 0; i < normals.size(); ++i) {
-        if (!placement.isShared())
-            matrix = normalMatrix(placement.of(i));
+        if (!placement.isShared()) matrix = normalMatrix(placement.of(i));
         const glm::dvec3 normal = matrix * glm::dvec3(normals[i]);
         const double length = glm::length(normal);
         placed.push_back(length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f));
@@ -61,18 +60,15 @@ void repairNormals(Mesh& mesh) {
         if (glm::vec3& normal = mesh.normals[mesh.indices[i]]; normal == glm::vec3(0.0f))
             normal = faceNormal(mesh, i / 3);
     for (glm::vec3& normal : mesh.normals) // of vertices without triangles
-        if (normal == glm::vec3(0.0f))
-            normal = {0, 1, 0};
+        if (normal == glm::vec3(0.0f)) normal = {0, 1, 0};
 }
 
 template <class T>
 void unshare(std::vector<T>& values, const std::vector<uint32_t>& indices) {
-    if (values.empty())
-        return;
+    if (values.empty()) return;
     std::vector<T> expanded;
     expanded.reserve(indices.size());
-    for (const uint32_t index : indices)
-        expanded.push_back(values[index]);
+    for (const uint32_t index : indices) expanded.push_back(values[index]);
     values = std::move(expanded);
 }
 
@@ -80,11 +76,9 @@ void unshare(std::vector<T>& values, const std::vector<uint32_t>& indices) {
 void makeFlat(Mesh& mesh) {
     unshare(mesh.positions, mesh.indices);
     unshare(mesh.textureCoordinates, mesh.indices);
-    for (size_t i = 0; i < mesh.indices.size(); ++i)
-        mesh.indices[i] = static_cast<uint32_t>(i);
+    for (size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<uint32_t>(i);
     mesh.normals.resize(mesh.indices.size());
-    for (size_t i = 0; i < mesh.indices.size(); ++i)
-        mesh.normals[i] = faceNormal(mesh, i / 3);
+    for (size_t i = 0; i < mesh.indices.size(); ++i) mesh.normals[i] = faceNormal(mesh, i / 3);
 }
 
 Mesh place(Primitive primitive, const Placement& placement) {
@@ -98,10 +92,8 @@ Mesh place(Primitive primitive, const Placement& placement) {
     for (size_t i = 0; i < mesh.indices.size(); i += 3)
         if (glm::determinant(glm::dmat3(placement.of(mesh.indices[i]))) < 0.0)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-    if (mesh.normals.empty())
-        makeFlat(mesh);
-    else
-        repairNormals(mesh);
+    if (mesh.normals.empty()) makeFlat(mesh);
+    else repairNormals(mesh);
     return mesh;
 }
 
@@ -150,12 +142,10 @@ private:
     void forEachPrimitive(const std::vector<int>& nodes, const auto& visit) const {
         for (const int number : nodes) {
             const auto node = static_cast<size_t>(number);
-            if (model.nodes[node].mesh < 0)
-                continue;
+            if (model.nodes[node].mesh < 0) continue;
             const tinygltf::Mesh& mesh = itemAt(model.meshes, model.nodes[node].mesh, "mesh");
             for (const tinygltf::Primitive& primitive : mesh.primitives)
-                if (hasTriangles(primitive))
-                    visit(node, mesh, primitive);
+                if (hasTriangles(primitive)) visit(node, mesh, primitive);
         }
     }
 
@@ -176,8 +166,7 @@ private:
 
     const std::pair<int, TextureMapping>& materialOf(int index) {
         const auto known = materials.find(index);
-        if (known != materials.end())
-            return known->second;
+        if (known != materials.end()) return known->second;
         GltfMaterial read = readMaterial(model, index, textures);
         geometry.materials.push_back(std::move(read.material));
         const int place = static_cast<int>(geometry.materials.size()) - 1;

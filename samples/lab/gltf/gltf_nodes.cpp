@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_nodes.hpp"
 
-#include "lab/gltf/gltf_accessors.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_accessors.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -15,8 +15,7 @@ namespace {
 // Lists of a wrong length are refused; an absent one is empty and keeps the default.
 bool hasNumbers(const std::vector<double>& numbers, size_t expected, const char* key,
                 const std::string& node) {
-    if (numbers.empty())
-        return false;
+    if (numbers.empty()) return false;
     if (numbers.size() != expected ||
         !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
         refuse(node + " has a '" + key + "' that is not " + std::to_string(expected) + " finite numbers");
@@ -27,14 +26,12 @@ NodePose restPose(const tinygltf::Node& node, const std::string& name) {
     NodePose pose;
     if (hasNumbers(node.matrix, 16, "matrix", name)) {
         glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i)
-            matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
         pose.matrix = matrix;
     }
     if (hasNumbers(node.translation, 3, "translation", name))
         pose.translation = {node.translation[0], node.translation[1], node.translation[2]};
-    if (hasNumbers(node.scale, 3, "scale", name))
-        pose.scale = {node.scale[0], node.scale[1], node.scale[2]};
+    if (hasNumbers(node.scale, 3, "scale", name)) pose.scale = {node.scale[0], node.scale[1], node.scale[2]};
     if (hasNumbers(node.rotation, 4, "rotation", name)) {
         pose.rotation = glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
         const double length = glm::length(pose.rotation);
@@ -47,8 +44,7 @@ NodePose restPose(const tinygltf::Node& node, const std::string& name) {
 }
 
 glm::dmat4 localMatrix(const NodePose& pose) {
-    if (pose.matrix)
-        return *pose.matrix;
+    if (pose.matrix) return *pose.matrix;
     return glm::scale(glm::translate(glm::dmat4(1.0), pose.translation) * glm::mat4_cast(pose.rotation),
                       pose.scale);
 }
@@ -85,15 +81,13 @@ std::vector<int> withDescendants(const tinygltf::Model& model, std::vector<int> 
 std::vector<int> rootNodes(const std::vector<int>& parents) {
     std::vector<int> roots;
     for (size_t i = 0; i < parents.size(); ++i)
-        if (parents[i] == none)
-            roots.push_back(static_cast<int>(i));
+        if (parents[i] == none) roots.push_back(static_cast<int>(i));
     return roots;
 }
 
 bool isFinite(const glm::dmat4& matrix) {
     for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(matrix[i / 4][i % 4]))
-            return false;
+        if (!std::isfinite(matrix[i / 4][i % 4])) return false;
     return true;
 }
 
@@ -114,24 +108,20 @@ std::vector<NodePose> restPose(const tinygltf::Model& model) {
 std::vector<glm::dmat4> worldMatrices(const tinygltf::Model& model, const std::vector<NodePose>& poses) {
     const std::vector<int> parents = findParents(model);
     const std::vector<int> order = withDescendants(model, rootNodes(parents));
-    if (order.size() != model.nodes.size())
-        refuse("its nodes form a cycle");
+    if (order.size() != model.nodes.size()) refuse("its nodes form a cycle");
     std::vector<glm::dmat4> world(model.nodes.size());
     for (const int node : order) {
         const auto i = static_cast<size_t>(node);
         world[i] = localMatrix(poses[i]);
-        if (parents[i] != none)
-            world[i] = world[static_cast<size_t>(parents[i])] * world[i];
-        if (!isFinite(world[i]))
-            refuse(nodeName(model, i) + " has a transform that is not finite");
+        if (parents[i] != none) world[i] = world[static_cast<size_t>(parents[i])] * world[i];
+        if (!isFinite(world[i])) refuse(nodeName(model, i) + " has a transform that is not finite");
     }
     return world;
 }
 
 std::vector<int> sceneNodes(const tinygltf::Model& model) {
     const std::vector<int> parents = findParents(model);
-    if (model.scenes.empty())
-        return withDescendants(model, rootNodes(parents));
+    if (model.scenes.empty()) return withDescendants(model, rootNodes(parents));
     const int number = model.defaultScene == none ? 0 : model.defaultScene;
     const tinygltf::Scene& scene = itemAt(model.scenes, number, "scene");
     std::vector<bool> listed(model.nodes.size(), false);

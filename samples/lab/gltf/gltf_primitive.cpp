@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_primitive.hpp"
 
-#include "lab/gltf/gltf_accessors.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_accessors.hpp"
 
 #include <map>
 #include <numeric>
@@ -30,8 +30,7 @@ void addMorphTargets(const tinygltf::Model& model, const std::vector<Attributes>
                      std::vector<glm::vec3>& vectors) {
     for (size_t target = 0; target < targets.size() && target < weights.size(); ++target) {
         const auto found = targets[target].find(semantic);
-        if (found == targets[target].end() || weights[target] == 0.0)
-            continue;
+        if (found == targets[target].end() || weights[target] == 0.0) continue;
         const std::vector<glm::vec3> offsets = readVectors<3>(model, found->second, vectors.size());
         for (size_t i = 0; i < vectors.size(); ++i)
             vectors[i] += static_cast<float>(weights[target]) * offsets[i];
@@ -40,29 +39,24 @@ void addMorphTargets(const tinygltf::Model& model, const std::vector<Attributes>
 
 std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, const Attributes& attributes,
                                               const TextureMapping& mapping, size_t count) {
-    if (mapping.set == none)
-        return {};
+    if (mapping.set == none) return {};
     const auto found = attributes.find("TEXCOORD_" + std::to_string(mapping.set));
-    if (found == attributes.end())
-        return std::vector<glm::vec2>(count, glm::vec2(0.0f));
+    if (found == attributes.end()) return std::vector<glm::vec2>(count, glm::vec2(0.0f));
     std::vector<glm::vec2> coordinates = readVectors<2>(model, found->second, count);
-    for (glm::vec2& v : coordinates)
-        v = glm::vec2(mapping.transform * glm::vec3(v, 1.0f));
+    for (glm::vec2& v : coordinates) v = glm::vec2(mapping.transform * glm::vec3(v, 1.0f));
     return coordinates;
 }
 
 // Strips and fans become lists of the same winding.
 std::vector<uint32_t> toTriangleList(const std::vector<uint32_t>& indices, int mode) {
-    if (mode == TINYGLTF_MODE_TRIANGLES)
-        return indices;
+    if (mode == TINYGLTF_MODE_TRIANGLES) return indices;
     std::vector<uint32_t> list;
     list.reserve((indices.size() - 2) * 3);
     for (size_t i = 0; i + 2 < indices.size(); ++i) {
         const size_t odd = i % 2;
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
             list.insert(list.end(), {indices[i + 1], indices[i + 2], indices[0]});
-        else
-            list.insert(list.end(), {indices[i], indices[i + 1 + odd], indices[i + 2 - odd]});
+        else list.insert(list.end(), {indices[i], indices[i + 1 + odd], indices[i + 2 - odd]});
     }
     return list;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_skinning.hpp"
 
-#include "lab/gltf/gltf_accessors.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_accessors.hpp"
 
 #include <string>
 
@@ -12,8 +12,7 @@ namespace {
 // World matrix times inverse bind matrix, for every joint.
 std::vector<glm::dmat4> jointMatrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
                                       const std::string& name, const std::vector<glm::dmat4>& world) {
-    if (skin.joints.empty())
-        refuse(name + " has no joints");
+    if (skin.joints.empty()) refuse(name + " has no joints");
     std::vector<float> inverseBind;
     if (skin.inverseBindMatrices >= 0) {
         inverseBind = readFloats(model, skin.inverseBindMatrices, 16);
@@ -49,8 +48,7 @@ std::vector<glm::dmat4> skinMatrices(const tinygltf::Model& model, int skinIndex
     for (int set = 0;; ++set) {
         const auto jointsOf = primitive.attributes.find("JOINTS_" + std::to_string(set));
         const auto weightsOf = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
-        if (jointsOf == primitive.attributes.end() || weightsOf == primitive.attributes.end())
-            break;
+        if (jointsOf == primitive.attributes.end() || weightsOf == primitive.attributes.end()) break;
         const std::vector<uint32_t> indices = readIntegers(model, jointsOf->second, 4);
         const std::vector<float> weights = readFloats(model, weightsOf->second, 4);
         if (indices.size() != vertexCount * 4 || weights.size() != vertexCount * 4)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_structure.hpp"
 
-#include "lab/gltf/gltf_file.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -66,44 +66,33 @@ void checkIndex(const std::string& key, const Json& value) {
 
 void checkIndices(const std::string& key, const Json& value) {
     // "nodes" and "indices" are also the names of lists of objects and of a sparse accessor's part.
-    if (value.is_object())
-        return;
-    if (!value.is_array())
-        return checkIndex(key, value);
+    if (value.is_object()) return;
+    if (!value.is_array()) return checkIndex(key, value);
     for (const Json& item : value)
-        if (!item.is_object())
-            checkIndex(key, item);
+        if (!item.is_object()) checkIndex(key, item);
 }
 
 // tinygltf narrows integers silently, so that 2^32 would be index 0. Nesting was bounded on parsing.
 void checkAllIndices(const Json& value) {
     if (value.is_array())
-        for (const Json& item : value)
-            checkAllIndices(item);
-    if (!value.is_object())
-        return;
+        for (const Json& item : value) checkAllIndices(item);
+    if (!value.is_object()) return;
     for (const auto& [key, item] : value.items()) {
-        if (key == "extras" || key == "asset")
-            continue;
-        if (contains(indexNames, key))
-            checkIndices(key, item);
+        if (key == "extras" || key == "asset") continue;
+        if (contains(indexNames, key)) checkIndices(key, item);
         if (key == "attributes" && item.is_object())
-            for (const auto& [semantic, accessor] : item.items())
-                checkIndex(semantic, accessor);
-        if (key != "extensions")
-            checkAllIndices(item);
+            for (const auto& [semantic, accessor] : item.items()) checkIndex(semantic, accessor);
+        if (key != "extensions") checkAllIndices(item);
         else if (item.is_object())
             for (const auto& [name, extension] : item.items())
-                if (contains(understoodExtensions, name))
-                    checkAllIndices(extension);
+                if (contains(understoodExtensions, name)) checkAllIndices(extension);
     }
 }
 
 size_t byteCount(const Json& object, const char* key, const std::string& subject, bool required) {
     const auto found = object.find(key);
     if (found == object.end()) {
-        if (required)
-            refuse(subject + " lacks '" + key + "'");
+        if (required) refuse(subject + " lacks '" + key + "'");
         return 0;
     }
     if (!found->is_number_unsigned() || *found > largestGltfFile)
@@ -114,8 +103,7 @@ size_t byteCount(const Json& object, const char* key, const std::string& subject
 
 void checkVersion(const Json& root) {
     const auto asset = root.find("asset");
-    if (asset == root.end() || !asset->is_object())
-        refuse("it is not glTF: the key 'asset' is missing");
+    if (asset == root.end() || !asset->is_object()) refuse("it is not glTF: the key 'asset' is missing");
     const auto version = asset->find("version");
     if (version == asset->end() || !version->is_string())
         refuse("it is not glTF: the key 'version' of 'asset' is missing");
@@ -125,13 +113,10 @@ void checkVersion(const Json& root) {
 
 void checkExtensions(const Json& root) {
     const auto required = root.find("extensionsRequired");
-    if (required == root.end())
-        return;
-    if (!required->is_array())
-        refuse("the key 'extensionsRequired' is not a list");
+    if (required == root.end()) return;
+    if (!required->is_array()) refuse("the key 'extensionsRequired' is not a list");
     for (const Json& name : *required) {
-        if (!name.is_string())
-            refuse("the key 'extensionsRequired' is not a list of strings");
+        if (!name.is_string()) refuse("the key 'extensionsRequired' is not a list of strings");
         const std::string extension = name.get<std::string>();
         if (!contains(understoodExtensions, extension) && !isIgnorable(extension))
             refuse("it requires the extension '" + extension + "', which is not supported",
@@ -142,8 +127,7 @@ void checkExtensions(const Json& root) {
 void checkLists(const Json& root) {
     for (const std::string_view name : listNames) {
         const auto list = root.find(name);
-        if (list == root.end())
-            continue;
+        if (list == root.end()) continue;
         if (!list->is_array() ||
             !std::all_of(list->begin(), list->end(), [](const Json& item) { return item.is_object(); }))
             refuse("the key '" + std::string(name) + "' is not a list of objects");
@@ -156,18 +140,14 @@ std::vector<GltfBufferSource> listBuffers(const Json& root, size_t binarySize) {
         const std::string subject = "buffer " + std::to_string(buffers.size());
         GltfBufferSource buffer;
         buffer.length = byteCount(item, "byteLength", subject, true);
-        if (buffer.length == 0)
-            refuse(subject + " has a 'byteLength' of 0");
+        if (buffer.length == 0) refuse(subject + " has a 'byteLength' of 0");
         const auto uri = item.find("uri");
-        if (uri != item.end() && !uri->is_string())
-            refuse(subject + " has a 'uri' that is not a string");
-        if (uri != item.end())
-            buffer.uri = uri->get<std::string>();
+        if (uri != item.end() && !uri->is_string()) refuse(subject + " has a 'uri' that is not a string");
+        if (uri != item.end()) buffer.uri = uri->get<std::string>();
         if (buffer.uri.empty() && buffers.empty() && buffer.length > binarySize)
             refuse(subject + " has a 'byteLength' of " + std::to_string(buffer.length) +
                    ", but no 'uri' and " + std::to_string(binarySize) + " bytes of binary data");
-        if (buffer.uri.empty() && !buffers.empty())
-            refuse(subject + " lacks 'uri'");
+        if (buffer.uri.empty() && !buffers.empty()) refuse(subject + " lacks 'uri'");
         buffer.external = !buffer.uri.empty() && !tinygltf::IsDataURI(buffer.uri);
         buffers.push_back(std::move(buffer));
     }

@@ -2,9 +2,9 @@
 #include "lab/gltf/gltf_textures.hpp"
 
 #include "lab/files/file_bytes.hpp"
+#include "lab/files/input_error.hpp"
 #include "lab/gltf/gltf_accessors.hpp"
 #include "lab/gltf/gltf_file.hpp"
-#include "lab/files/input_error.hpp"
 
 #include <cstring>
 #include <optional>
@@ -16,8 +16,7 @@ using Bytes = std::vector<unsigned char>;
 
 uint32_t bigEndian(const Bytes& bytes, size_t at, size_t count) {
     uint32_t value = 0;
-    for (size_t i = 0; i < count; ++i)
-        value = value << 8 | bytes[at + i];
+    for (size_t i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
     return value;
 }
 
@@ -28,15 +27,13 @@ struct PictureSize {
 
 std::optional<PictureSize> sizeOfPng(const Bytes& bytes) {
     constexpr unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    if (bytes.size() < 24 || std::memcmp(bytes.data(), signature, sizeof signature) != 0)
-        return std::nullopt;
+    if (bytes.size() < 24 || std::memcmp(bytes.data(), signature, sizeof signature) != 0) return std::nullopt;
     return PictureSize{bigEndian(bytes, 16, 4), bigEndian(bytes, 20, 4)};
 }
 
 // Walks over the segments to the frame header, whose markers are C0 to CF but for C4, C8 and CC.
 std::optional<PictureSize> sizeOfJpeg(const Bytes& bytes) {
-    if (bytes.size() < 4 || bytes[0] != 0xff || bytes[1] != 0xd8)
-        return std::nullopt;
+    if (bytes.size() < 4 || bytes[0] != 0xff || bytes[1] != 0xd8) return std::nullopt;
     for (size_t at = 2; at + 9 <= bytes.size();) {
         const unsigned char marker = bytes[at + 1];
         if (bytes[at] != 0xff || marker == 0xff) {
@@ -53,10 +50,8 @@ std::optional<PictureSize> sizeOfJpeg(const Bytes& bytes) {
 // The size is known before decoding, so that a small file cannot claim all memory.
 PictureSize checkedSize(const Bytes& bytes, const std::string& subject) {
     std::optional<PictureSize> size = sizeOfPng(bytes);
-    if (!size)
-        size = sizeOfJpeg(bytes);
-    if (!size)
-        refuse(subject + " is neither a PNG nor a JPEG file");
+    if (!size) size = sizeOfJpeg(bytes);
+    if (!size) refuse(subject + " is neither a PNG nor a JPEG file");
     const size_t texels = size_t(size->width) * size->height;
     if (texels == 0 || size->width > largestTextureSide || size->height > largestTextureSide ||
         texels > largestTextureSize)
@@ -67,8 +62,7 @@ PictureSize checkedSize(const Bytes& bytes, const std::string& subject) {
 }
 
 std::vector<uint8_t> toBytes(const tinygltf::Image& image) {
-    if (image.bits == 8)
-        return image.image;
+    if (image.bits == 8) return image.image;
     std::vector<uint8_t> bytes(image.image.size() / 2);
     for (size_t i = 0; i < bytes.size(); ++i) {
         uint16_t value = 0;
@@ -116,8 +110,7 @@ Texture decode(const Bytes& bytes, const std::string& subject, size_t& total) {
 int GltfTextures::use(int gltfTexture) {
     const tinygltf::Texture& source = itemAt(model.textures, gltfTexture, "texture");
     const std::string subject = "texture " + std::to_string(gltfTexture);
-    if (source.source < 0)
-        refuse(subject + " names no PNG or JPEG image");
+    if (source.source < 0) refuse(subject + " names no PNG or JPEG image");
     const tinygltf::Image& image = itemAt(model.images, source.source, "image");
     Wrap wrapS = Wrap::repeat, wrapT = Wrap::repeat;
     if (source.sampler >= 0) {
@@ -126,8 +119,7 @@ int GltfTextures::use(int gltfTexture) {
         wrapT = wrapOf(sampler.wrapT, subject);
     }
     const auto key = std::make_tuple(source.source, wrapS, wrapT);
-    if (const auto known = indices.find(key); known != indices.end())
-        return known->second;
+    if (const auto known = indices.find(key); known != indices.end()) return known->second;
     const bool external = image.image.empty();
     const std::string imageName = "image " + std::to_string(source.source) + " ('" +
                                   (external ? image.uri : image.name).substr(0, 200) + "')";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/gltf/gltf_views.hpp"
 
+#include "lab/files/input_error.hpp"
 #include "lab/gltf/gltf_accessors.hpp"
 #include "lab/gltf/gltf_nodes.hpp"
-#include "lab/files/input_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,7 @@ namespace {
 glm::dvec3 axis(const glm::dmat4& matrix, int column, const std::string& subject) {
     const glm::dvec3 v(matrix[column]);
     const double length = glm::length(v);
-    if (!(length > 0.0))
-        refuse(subject + " has a transform without directions");
+    if (!(length > 0.0)) refuse(subject + " has a transform without directions");
     return v / length;
 }
 
@@ -32,12 +31,10 @@ std::string uniqueName(const std::string& wish, const std::vector<CameraView>& c
                            [&](const CameraView& camera) { return camera.name == name; });
     };
     const std::string base = wish.empty() ? "camera" : wish;
-    if (!isTaken(base))
-        return base;
+    if (!isTaken(base)) return base;
     // Of so many numbers one is free.
     size_t number = 2;
-    while (isTaken(base + " " + std::to_string(number)))
-        ++number;
+    while (isTaken(base + " " + std::to_string(number))) ++number;
     return base + " " + std::to_string(number);
 }
 
@@ -51,8 +48,7 @@ void readPerspective(const tinygltf::PerspectiveCamera& source, const std::strin
         refuse(subject + " has a field of view of " + std::to_string(source.yfov) +
                "; expected less than pi");
     camera.farPlane = std::max(camera.farPlane, camera.nearPlane * 1000.0f);
-    if (source.zfar > 0.0)
-        camera.farPlane = static_cast<float>(source.zfar);
+    if (source.zfar > 0.0) camera.farPlane = static_cast<float>(source.zfar);
 }
 
 void readOrthographic(const tinygltf::OrthographicCamera& source, const std::string& subject,
@@ -66,10 +62,8 @@ void readOrthographic(const tinygltf::OrthographicCamera& source, const std::str
 
 CameraView readCamera(const tinygltf::Camera& source, const glm::dmat4& world, const std::string& subject) {
     CameraView camera;
-    if (source.type == "perspective")
-        readPerspective(source.perspective, subject, camera);
-    else
-        readOrthographic(source.orthographic, subject, camera);
+    if (source.type == "perspective") readPerspective(source.perspective, subject, camera);
+    else readOrthographic(source.orthographic, subject, camera);
     if (!(camera.nearPlane >= 0.0f) || !(camera.farPlane > camera.nearPlane) ||
         !std::isfinite(camera.farPlane))
         refuse(subject + " has planes that are not in the order 0, near, far");
@@ -102,8 +96,7 @@ Light readLight(const tinygltf::Light& source, const glm::dmat4& world, const st
         return light;
     }
     light.direction = glm::vec3(-axis(world, 2, subject));
-    if (source.type == "directional")
-        return light;
+    if (source.type == "directional") return light;
     if (source.type != "spot")
         refuse(subject + " has the type '" + source.type + "'; expected directional, point or spot");
     light.type = LightType::spot;
@@ -125,8 +118,7 @@ std::vector<CameraView> readCameras(const tinygltf::Model& model, const std::vec
     for (const int number : nodes) {
         const auto i = static_cast<size_t>(number);
         const tinygltf::Node& node = model.nodes[i];
-        if (node.camera < 0)
-            continue;
+        if (node.camera < 0) continue;
         const tinygltf::Camera& source = itemAt(model.cameras, node.camera, "camera");
         CameraView camera = readCamera(source, world[i], "camera " + std::to_string(node.camera));
         camera.name = uniqueName(source.name.empty() ? node.name : source.name, cameras);
@@ -141,8 +133,7 @@ std::vector<Light> readLights(const tinygltf::Model& model, const std::vector<in
     for (const int number : nodes) {
         const auto i = static_cast<size_t>(number);
         const auto extension = model.nodes[i].extensions.find("KHR_lights_punctual");
-        if (extension == model.nodes[i].extensions.end())
-            continue;
+        if (extension == model.nodes[i].extensions.end()) continue;
         if (!extension->second.Has("light") || !extension->second.Get("light").IsInt())
             refuse(nodeName(model, i) + " names no light");
         const int index = extension->second.Get("light").GetNumberAsInt();

@@ -14,8 +14,7 @@
 namespace rebound::host {
 
 Result<> requireDevice(const std::string& description, const std::string& part) {
-    if (description.find(part) != std::string::npos)
-        return {};
+    if (description.find(part) != std::string::npos) return {};
     return Error{ErrorCode::notFound,
                  "no device whose name holds \"" + part + "\" was found; there is " + description};
 }
@@ -29,8 +28,7 @@ struct OpenGLContext::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     ~State() {
-        if (context == EGL_NO_CONTEXT)
-            return;
+        if (context == EGL_NO_CONTEXT) return;
         if (eglGetCurrentContext() == context)
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         // The display stays: EGL hands out the same one to everybody, and other contexts may live on it.
@@ -48,8 +46,7 @@ Function eglFunction(const char* name) {
 bool lists(const char* extensions, std::string_view name) {
     const std::string_view all = extensions ? extensions : "";
     for (size_t at = all.find(name); at != all.npos; at = all.find(name, at + 1))
-        if (at + name.size() == all.size() || all[at + name.size()] == ' ')
-            return true;
+        if (at + name.size() == all.size() || all[at + name.size()] == ' ') return true;
     return false;
 }
 
@@ -61,16 +58,13 @@ bool isUsable(EGLDisplay display) {
 EGLDisplay findDisplay() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto displayOf = eglFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-    if (!displayOf)
-        return EGL_NO_DISPLAY;
+    if (!displayOf) return EGL_NO_DISPLAY;
     if (lists(extensions, "EGL_MESA_platform_surfaceless")) {
         const EGLDisplay display = displayOf(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (isUsable(display))
-            return display;
+        if (isUsable(display)) return display;
     }
     const auto queryDevices = eglFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    if (!queryDevices || !lists(extensions, "EGL_EXT_platform_device"))
-        return EGL_NO_DISPLAY;
+    if (!queryDevices || !lists(extensions, "EGL_EXT_platform_device")) return EGL_NO_DISPLAY;
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
     queryDevices(EGLint(devices.size()), devices.data(), &count);
@@ -85,8 +79,7 @@ Error eglError(const std::string& what) {
     constexpr const char* digits = "0123456789ABCDEF";
     const EGLint code = eglGetError();
     std::string text = "0x";
-    for (int shift = 12; shift >= 0; shift -= 4)
-        text += digits[code >> shift & 15];
+    for (int shift = 12; shift >= 0; shift -= 4) text += digits[code >> shift & 15];
     return {ErrorCode::unsupported, what + ": EGL error " + text};
 }
 
@@ -99,10 +92,8 @@ void APIENTRY collect(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GL
 // Part of OpenGL 4.3 and OpenGL ES 3.2; before, an extension whose functions have a suffix.
 void collectMessages(std::vector<std::string>& messages) {
     auto callback = eglFunction<PFNGLDEBUGMESSAGECALLBACKPROC>("glDebugMessageCallback");
-    if (!callback)
-        callback = eglFunction<PFNGLDEBUGMESSAGECALLBACKPROC>("glDebugMessageCallbackKHR");
-    if (!callback)
-        return;
+    if (!callback) callback = eglFunction<PFNGLDEBUGMESSAGECALLBACKPROC>("glDebugMessageCallbackKHR");
+    if (!callback) return;
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     callback(collect, &messages);
@@ -137,8 +128,7 @@ Result<OpenGLContext> OpenGLContext::create(OpenGLApi api) {
     if (state->context == EGL_NO_CONTEXT)
         return eglError(es ? "no context of OpenGL ES 3.1" : "no context of OpenGL 4.3");
     OpenGLContext context(std::move(state));
-    if (auto current = context.makeCurrent(); !current)
-        return current.error();
+    if (auto current = context.makeCurrent(); !current) return current.error();
     collectMessages(context.state->messages);
     return context;
 }
@@ -166,8 +156,6 @@ std::string OpenGLContext::description() const {
     return text(GL_VERSION) + ", " + text(GL_RENDERER);
 }
 
-std::vector<std::string> OpenGLContext::takeMessages() {
-    return std::exchange(state->messages, {});
-}
+std::vector<std::string> OpenGLContext::takeMessages() { return std::exchange(state->messages, {}); }
 
 } // namespace rebound::host

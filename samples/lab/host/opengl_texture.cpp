@@ -47,8 +47,7 @@ OpenGLTexture& OpenGLTexture::operator=(OpenGLTexture&& other) noexcept {
 }
 
 OpenGLTexture::~OpenGLTexture() {
-    if (texture != 0)
-        glDeleteTextures(1, &texture);
+    if (texture != 0) glDeleteTextures(1, &texture);
 }
 
 void writeTexture(unsigned texture, Format format, const lab::Image& image) {
@@ -56,8 +55,7 @@ void writeTexture(unsigned texture, Format format, const lab::Image& image) {
     GLenum layout = GL_RGBA;
     if (format == Format::r32f) {
         layout = GL_RED;
-        for (size_t i = 0; i < texels.size() / 4; ++i)
-            texels[i] = texels[4 * i];
+        for (size_t i = 0; i < texels.size() / 4; ++i) texels[i] = texels[4 * i];
     }
     GLint before = 0;
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
@@ -77,8 +75,7 @@ Result<lab::Image> readTexture(unsigned texture, Extent2D extent, int channels) 
     glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
     const bool complete = glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     std::vector<float> texels(size_t(extent.width) * size_t(extent.height) * 4);
-    if (complete)
-        glReadPixels(0, 0, extent.width, extent.height, GL_RGBA, GL_FLOAT, texels.data());
+    if (complete) glReadPixels(0, 0, extent.width, extent.height, GL_RGBA, GL_FLOAT, texels.data());
     glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(before));
     glDeleteFramebuffers(1, &framebuffer);
     if (!complete)

@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                           VkDebugUtilsMessageTypeFlagsEXT,
                                            const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
     static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
     return VK_FALSE;
@@ -20,12 +21,14 @@ bool isLayerPresent(const char* name) {
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vkEnumerateInstanceLayerProperties(&count, layers.data());
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
+    return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, name) == 0;
+    });
 }
 
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& messages) {
-    auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+    auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     // Not general messages: there the loader reports drivers that cannot be loaded. Nor advice on performance: copies
@@ -47,7 +50,8 @@ int queueFamilyOf(VkPhysicalDevice device) {
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    for (VkQueueFlags wanted : {VkQueueFlags(VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT), VkQueueFlags(VK_QUEUE_COMPUTE_BIT)})
+    for (VkQueueFlags wanted :
+         {VkQueueFlags(VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT), VkQueueFlags(VK_QUEUE_COMPUTE_BIT)})
         for (uint32_t i = 0; i < count; ++i)
             if ((families[i].queueFlags & wanted) == wanted) return int(i);
     return -1;
@@ -55,10 +59,14 @@ int queueFamilyOf(VkPhysicalDevice device) {
 
 int rankOf(VkPhysicalDeviceType type) {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    default: return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return 2;
+    default:
+        return 3;
     }
 }
 
@@ -70,7 +78,8 @@ Result<> check(VkResult result, const char* what) {
                            : result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY
                                ? ErrorCode::outOfMemory
                                : ErrorCode::unsupported;
-    return Error{code, std::string("Vulkan: ") + what + " failed with VkResult " + std::to_string(int(result))};
+    return Error{code,
+                 std::string("Vulkan: ") + what + " failed with VkResult " + std::to_string(int(result))};
 }
 
 VulkanContext::State::~State() {
@@ -87,12 +96,14 @@ VulkanContext::State::~State() {
 
 Result<> VulkanContext::createInstance(const VulkanOptions& options, State& s) {
     if (options.validation && !isLayerPresent(validationLayer))
-        return Error{ErrorCode::unsupported, std::string("validation: the layer ") + validationLayer + " is not installed"};
+        return Error{ErrorCode::unsupported,
+                     std::string("validation: the layer ") + validationLayer + " is not installed"};
     auto application = structure<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     application.pApplicationName = "Rebound";
     application.apiVersion = VK_API_VERSION_1_1;
     std::vector<const char*> extensions = options.instanceExtensions;
-    const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const VkValidationFeatureEnableEXT enabled[] = {
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     auto features = structure<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = enabled;
@@ -108,7 +119,8 @@ Result<> VulkanContext::createInstance(const VulkanOptions& options, State& s) {
     }
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    if (auto made = check(vkCreateInstance(&info, nullptr, &s.instance), "creating an instance"); !made) return made;
+    if (auto made = check(vkCreateInstance(&info, nullptr, &s.instance), "creating an instance"); !made)
+        return made;
     if (!options.validation) return {};
     const auto create =
         instanceFunction<PFN_vkCreateDebugUtilsMessengerEXT>(s.instance, "vkCreateDebugUtilsMessengerEXT");
@@ -139,7 +151,8 @@ Result<> VulkanContext::chooseDevice(const VulkanOptions& options, State& s) {
     }
     if (s.physicalDevice) return {};
     return Error{ErrorCode::notFound,
-                 "Vulkan: no device" + (options.device.empty() ? "" : " whose name holds \"" + options.device + "\"") +
+                 "Vulkan: no device" +
+                     (options.device.empty() ? "" : " whose name holds \"" + options.device + "\"") +
                      " with Vulkan 1.1 and a queue that computes was found" +
                      (known.empty() ? "; there is none at all" : "; there are " + known)};
 }
@@ -155,7 +168,8 @@ Result<> VulkanContext::createDevice(const VulkanOptions& options, State& s) {
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = uint32_t(options.deviceExtensions.size());
     info.ppEnabledExtensionNames = options.deviceExtensions.data();
-    if (auto made = check(vkCreateDevice(s.physicalDevice, &info, nullptr, &s.device), "creating a device"); !made)
+    if (auto made = check(vkCreateDevice(s.physicalDevice, &info, nullptr, &s.device), "creating a device");
+        !made)
         return made;
     vkGetDeviceQueue(s.device, s.queueFamily, 0, &s.queue);
     auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
@@ -178,7 +192,8 @@ Result<> VulkanContext::run(const std::function<Result<>(VkCommandBuffer)>& reco
     allocation.commandPool = state->pool;
     allocation.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    if (auto made = check(vkAllocateCommandBuffers(state->device, &allocation, &commands), "allocating a command buffer");
+    if (auto made = check(vkAllocateCommandBuffers(state->device, &allocation, &commands),
+                          "allocating a command buffer");
         !made)
         return made;
     auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);

@@ -14,7 +14,8 @@
 namespace rebound::host {
 
 struct VulkanOptions {
-    std::string device;      // part of its name; empty: the first, discrete ones before integrated ones before software
+    std::string
+        device; // part of its name; empty: the first, discrete ones before integrated ones before software
     bool validation = false; // with synchronization validation; fails where the layer is not installed
     std::vector<const char*> instanceExtensions, deviceExtensions;
 };

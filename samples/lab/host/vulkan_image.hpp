@@ -11,8 +11,8 @@ namespace rebound::host {
 
 // The context outlives them.
 struct VulkanBuffer {
-    static Result<std::unique_ptr<VulkanBuffer>> create(const VulkanContext&, VkDeviceSize, VkBufferUsageFlags,
-                                                        VkMemoryPropertyFlags);
+    static Result<std::unique_ptr<VulkanBuffer>> create(const VulkanContext&, VkDeviceSize,
+                                                        VkBufferUsageFlags, VkMemoryPropertyFlags);
     VulkanBuffer(const VulkanBuffer&) = delete;
     VulkanBuffer& operator=(const VulkanBuffer&) = delete;
     ~VulkanBuffer();
@@ -29,7 +29,8 @@ private:
 
 // 2D, one level, with a view of all of it.
 struct VulkanImage {
-    static Result<std::unique_ptr<VulkanImage>> create(const VulkanContext&, Extent2D, VkFormat, VkImageUsageFlags,
+    static Result<std::unique_ptr<VulkanImage>> create(const VulkanContext&, Extent2D, VkFormat,
+                                                       VkImageUsageFlags,
                                                        VkImageAspectFlags = VK_IMAGE_ASPECT_COLOR_BIT);
     VulkanImage(const VulkanImage&) = delete;
     VulkanImage& operator=(const VulkanImage&) = delete;

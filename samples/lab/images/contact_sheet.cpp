@@ -17,8 +17,7 @@ constexpr int largestFontScale = 2; // pixels a dot of the font
 std::string onePlaceACharacter(std::string_view text) {
     std::string places;
     for (const char c : text)
-        if ((static_cast<unsigned char>(c) & 0xc0u) != 0x80u)
-            places.push_back(c);
+        if ((static_cast<unsigned char>(c) & 0xc0u) != 0x80u) places.push_back(c);
     return places;
 }
 
@@ -75,8 +74,7 @@ bool drawable(const Picture& picture) {
 } // namespace
 
 Picture contactSheet(const std::vector<CaptionedPicture>& pictures, int columns) {
-    if (pictures.empty())
-        return {};
+    if (pictures.empty()) return {};
     const Layout layout = layOut(pictures, columns);
     Picture sheet{layout.width(), layout.height(), {}};
     sheet.rgb.assign(size_t(sheet.width) * size_t(sheet.height) * 3, background);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "lab/images/image_files.hpp"
 #include "lab/files/output_file.hpp"
+#include "lab/images/image_files.hpp"
 
 #include "lab/images/exr_header.hpp"
 
@@ -80,8 +80,7 @@ std::vector<std::string> colourChannels(const Imf::ChannelList& channels) {
     if (has("R") && has("G") && has("B"))
         return has("A") ? std::vector<std::string>{"R", "G", "B", "A"}
                         : std::vector<std::string>{"R", "G", "B"};
-    if (has("Y") && !has("RY") && !has("BY"))
-        return {"Y"};
+    if (has("Y") && !has("RY") && !has("BY")) return {"Y"};
     return {};
 }
 
@@ -102,12 +101,10 @@ Result<std::vector<std::string>> readableChannels(const Imf::ChannelList& channe
 }
 
 Result<Image> decodeExr(const fs::path& path) {
-    if (auto checked = checkExrHeader(path); !checked)
-        return checked.error();
+    if (auto checked = checkExrHeader(path); !checked) return checked.error();
     Imf::InputFile file(path.c_str(), noThreads);
     auto names = readableChannels(file.header().channels());
-    if (!names)
-        return names.error();
+    if (!names) return names.error();
     const Imath::Box2i window = file.header().dataWindow();
     Image image({window.max.x - window.min.x + 1, window.max.y - window.min.y + 1}, int(names->size()));
     Imf::FrameBuffer frame;
@@ -123,8 +120,7 @@ Result<Image> decodeExr(const fs::path& path) {
 } // namespace
 
 Result<> writeExr(const fs::path& path, const Image& image, ExrPrecision precision) {
-    if (auto writable = checkWritable(path, image); !writable)
-        return writable;
+    if (auto writable = checkWritable(path, image); !writable) return writable;
     try {
         const std::string bytes = precision == ExrPrecision::half
                                       ? encodeExr(image, toHalf(image.data), Imf::HALF)
@@ -140,14 +136,12 @@ Result<> writeExr(const fs::path& path, const Image& image, ExrPrecision precisi
 Result<Image> readExr(const fs::path& path) {
     std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
-    if (!fs::exists(status))
-        return unreadable(path, ErrorCode::notFound, "there is no such file");
+    if (!fs::exists(status)) return unreadable(path, ErrorCode::notFound, "there is no such file");
     if (!fs::is_regular_file(status))
         return unreadable(path, ErrorCode::inputOutput, "it is not a regular file");
     try {
         auto image = decodeExr(path);
-        if (!image)
-            return unreadable(path, image.error().code, image.error().message);
+        if (!image) return unreadable(path, image.error().code, image.error().message);
         return image;
     } catch (const std::bad_alloc&) {
         return unreadable(path, ErrorCode::outOfMemory, "out of memory");

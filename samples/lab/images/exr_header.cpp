@@ -29,8 +29,7 @@ Result<int> readVersion(Imf::IStream& stream) {
             value |= uint32_t(static_cast<unsigned char>(bytes[first + i])) << (8 * i);
         return int(value);
     };
-    if (field(0) != Imf::MAGIC)
-        return Error{ErrorCode::invalidData, "it is not an OpenEXR file"};
+    if (field(0) != Imf::MAGIC) return Error{ErrorCode::invalidData, "it is not an OpenEXR file"};
     return field(4);
 }
 
@@ -51,8 +50,7 @@ bool deflates(Imf::Compression compression) {
 Result<> checkExrHeader(const std::filesystem::path& path) {
     Imf::StdIFStream stream(path.c_str());
     auto version = readVersion(stream);
-    if (!version)
-        return version.error();
+    if (!version) return version.error();
     if (Imf::isNonImage(*version))
         return Error{ErrorCode::invalidData, "it holds deep data; expected a flat image"};
     Imf::Header header;

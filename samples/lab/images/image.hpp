@@ -22,7 +22,9 @@ struct Image {
 
     Extent2D extent() const { return {width, height}; }
     bool empty() const { return data.empty(); }
-    float* at(int x, int y) { return data.data() + (size_t(y) * size_t(width) + size_t(x)) * size_t(channels); }
+    float* at(int x, int y) {
+        return data.data() + (size_t(y) * size_t(width) + size_t(x)) * size_t(channels);
+    }
     const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
 };
 

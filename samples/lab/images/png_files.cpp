@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "lab/images/image_files.hpp"
 #include "lab/files/output_file.hpp"
+#include "lab/images/image_files.hpp"
 
 #include <png.h>
 

@@ -36,10 +36,8 @@ void encodePixel(const float* pixel, int channels, const ToneCurve& curve, unsig
         return;
     }
     for (int c = 0; c < 3; ++c) {
-        if (c < colours)
-            rgb[c] = encode(pixel[c], curve);
-        else
-            rgb[c] = colours == 1 ? rgb[0] : static_cast<unsigned char>(0);
+        if (c < colours) rgb[c] = encode(pixel[c], curve);
+        else rgb[c] = colours == 1 ? rgb[0] : static_cast<unsigned char>(0);
     }
 }
 
@@ -57,8 +55,7 @@ ToneCurve automaticToneCurve(const Image& image) {
         for (int x = 0; x < image.width; ++x)
             if (const float l = brightness(image.at(x, y), image.channels); l > 0.0f && std::isfinite(l))
                 luminances.push_back(l);
-    if (luminances.empty())
-        return {};
+    if (luminances.empty()) return {};
     const auto percentile = luminances.begin() + std::ptrdiff_t((luminances.size() - 1) * 9 / 10);
     std::nth_element(luminances.begin(), percentile, luminances.end());
     // 0.8 is the picture's value, so the curve before sRGB has to reach what 0.8 decodes to.

@@ -25,17 +25,14 @@ double areaOf(const Mesh& mesh, uint32_t triangle) {
                                         glm::dvec3(mesh.positions[index[2]]) - a));
 }
 
-float sum(glm::vec3 v) {
-    return v.x + v.y + v.z;
-}
+float sum(glm::vec3 v) { return v.x + v.y + v.z; }
 
 // Mean emission over a few points, mixed with the most that the texture can give: where the points miss a
 // bright spot, it is still found.
 float typicalEmission(const EmbreeScene& scene, uint32_t mesh, uint32_t triangle) {
     const Scene& source = scene.scene();
     const Material& material = source.materials[size_t(source.meshes[mesh].material)];
-    if (material.emissionTexture == none)
-        return sum(material.emission);
+    if (material.emissionTexture == none) return sum(material.emission);
     constexpr uint32_t points = 16;
     constexpr float safetyShare = 0.1f;
     float mean = 0.0f;
@@ -49,17 +46,14 @@ float typicalEmission(const EmbreeScene& scene, uint32_t mesh, uint32_t triangle
 
 EmissiveSurfaces::EmissiveSurfaces(const EmbreeScene& scene) {
     const Scene& source = scene.scene();
-    if (!source.emissiveMaterialsLight)
-        return;
+    if (!source.emissiveMaterialsLight) return;
     double total = 0.0;
     for (uint32_t mesh = 0; mesh < source.meshes.size(); ++mesh) {
-        if (source.materials[size_t(source.meshes[mesh].material)].emission == glm::vec3(0.0f))
-            continue;
+        if (source.materials[size_t(source.meshes[mesh].material)].emission == glm::vec3(0.0f)) continue;
         for (uint32_t triangle = 0; triangle < source.meshes[mesh].indices.size() / 3; ++triangle) {
             const double area = areaOf(source.meshes[mesh], triangle);
             const float emission = typicalEmission(scene, mesh, triangle);
-            if (!(area * double(emission) > 0.0))
-                continue;
+            if (!(area * double(emission) > 0.0)) continue;
             total += area * double(emission);
             triangles.push_back({mesh, triangle, total, emission});
         }

@@ -15,10 +15,8 @@ float spotAttenuation(const Light& light, glm::vec3 towardsLight) {
     const float cosine = glm::dot(-towardsLight, light.direction);
     const float outer = std::cos(light.outerCone);
     const float inner = std::cos(light.innerCone);
-    if (cosine < outer)
-        return 0.0f;
-    if (cosine >= inner || inner <= outer)
-        return 1.0f;
+    if (cosine < outer) return 0.0f;
+    if (cosine >= inner || inner <= outer) return 1.0f;
     const float ramp = (cosine - outer) / (inner - outer);
     return ramp * ramp;
 }
@@ -30,9 +28,7 @@ float clearanceOf(const Light& light) {
     return 4.0f * std::numeric_limits<float>::epsilon() * largest;
 }
 
-glm::vec3 upOf(const Light& area) {
-    return glm::cross(area.direction, area.right);
-}
+glm::vec3 upOf(const Light& area) { return glm::cross(area.direction, area.right); }
 
 // Density of uniform places on an area light, per solid angle.
 float areaDensity(const Light& light, float distance, float emittedCosine) {
@@ -60,8 +56,7 @@ LightSampling::LightSampling(const EmbreeScene& embreeScene) : scene(&embreeScen
 glm::vec3 LightSampling::fromPoints(const Reflector& reflector) const {
     glm::vec3 sum(0.0f);
     for (const Light& light : scene->scene().lights)
-        if (light.type != LightType::area)
-            sum += fromPoint(reflector, light);
+        if (light.type != LightType::area) sum += fromPoint(reflector, light);
     return sum;
 }
 
@@ -69,30 +64,24 @@ glm::vec3 LightSampling::fromPoint(const Reflector& reflector, const Light& ligh
     const SurfacePoint& point = reflector.point;
     if (light.type == LightType::directional) {
         const float cosine = receivedCosine(point, -light.direction);
-        if (cosine == 0.0f || !scene->open(point, -light.direction))
-            return glm::vec3(0.0f);
+        if (cosine == 0.0f || !scene->open(point, -light.direction)) return glm::vec3(0.0f);
         return light.intensity * reflectance(reflector, -light.direction, cosine);
     }
     const glm::vec3 towards = light.position - point.position;
     const float distance = glm::length(towards);
-    if (!(distance > 0.0f))
-        return glm::vec3(0.0f);
+    if (!(distance > 0.0f)) return glm::vec3(0.0f);
     const glm::vec3 direction = towards / distance;
     float factor = receivedCosine(point, direction);
-    if (light.type == LightType::spot)
-        factor *= spotAttenuation(light, direction);
-    if (factor == 0.0f || !scene->visible(point, light.position))
-        return glm::vec3(0.0f);
+    if (light.type == LightType::spot) factor *= spotAttenuation(light, direction);
+    if (factor == 0.0f || !scene->visible(point, light.position)) return glm::vec3(0.0f);
     return light.intensity * reflectance(reflector, direction, factor / distance / distance);
 }
 
 glm::vec3 LightSampling::fromSurfaces(const Reflector& reflector, SampleSequence& sequence) const {
     glm::vec3 sum(0.0f);
     for (const Light& light : scene->scene().lights)
-        if (light.type == LightType::area)
-            sum += fromArea(reflector, light, sequence.next());
-    if (!emissive.empty())
-        sum += fromEmissive(reflector, sequence.next());
+        if (light.type == LightType::area) sum += fromArea(reflector, light, sequence.next());
+    if (!emissive.empty()) sum += fromEmissive(reflector, sequence.next());
     return sum;
 }
 
@@ -103,16 +92,13 @@ glm::vec3 LightSampling::fromArea(const Reflector& reflector, const Light& light
     const glm::vec3 target = light.position + light.right * place.x + upOf(light) * place.y;
     const glm::vec3 towards = target - reflector.point.position;
     const float distance = glm::length(towards);
-    if (!(distance > 0.0f))
-        return glm::vec3(0.0f);
+    if (!(distance > 0.0f)) return glm::vec3(0.0f);
     const glm::vec3 direction = towards / distance;
     const float emittedCosine = -glm::dot(direction, light.direction);
     const float cosine = receivedCosine(reflector.point, direction);
-    if (!(emittedCosine > 0.0f) || cosine == 0.0f)
-        return glm::vec3(0.0f);
+    if (!(emittedCosine > 0.0f) || cosine == 0.0f) return glm::vec3(0.0f);
     const glm::vec3 end = target + light.direction * (clearanceOf(light) + endClearance(distance));
-    if (!scene->visible(reflector.point, end))
-        return glm::vec3(0.0f);
+    if (!scene->visible(reflector.point, end)) return glm::vec3(0.0f);
     const float densities = areaDensity(light, distance, emittedCosine) + densityOf(reflector, direction);
     return light.intensity * (reflectance(reflector, direction, cosine) / densities);
 }
@@ -121,12 +107,10 @@ glm::vec3 LightSampling::fromEmissive(const Reflector& reflector, glm::vec2 squa
     const SurfaceLocation at = emissive.sample(square);
     const glm::vec3 towards = scene->positionAt(at) - reflector.point.position;
     const float distance = glm::length(towards);
-    if (!(distance > 0.0f) || scene->isHole(at))
-        return glm::vec3(0.0f);
+    if (!(distance > 0.0f) || scene->isHole(at)) return glm::vec3(0.0f);
     const glm::vec3 direction = towards / distance;
     const float cosine = receivedCosine(reflector.point, direction);
-    if (cosine == 0.0f)
-        return glm::vec3(0.0f);
+    if (cosine == 0.0f) return glm::vec3(0.0f);
     const SurfacePoint emitter = scene->surfaceAt(at, direction);
     const float emittedCosine = -glm::dot(direction, emitter.geometricNormal);
     if (!(emittedCosine > 0.0f) || emitter.emission == glm::vec3(0.0f) ||
@@ -141,8 +125,7 @@ Arrival LightSampling::follow(const SurfacePoint& point, glm::vec3 direction, fl
     const Ray ray{point.position + point.geometricNormal * point.clearance, direction};
     Arrival arrival;
     arrival.hit = scene->locate(ray);
-    if (!anyExtended)
-        return arrival;
+    if (!anyExtended) return arrival;
     arrival.light = arrival.hit ? emitted(*arrival.hit, direction, density) : scene->scene().environment;
     arrival.light += areasAlong(
         ray, arrival.hit ? arrival.hit->distance : std::numeric_limits<float>::infinity(), density);
@@ -151,12 +134,10 @@ Arrival LightSampling::follow(const SurfacePoint& point, glm::vec3 direction, fl
 
 glm::vec3 LightSampling::emitted(const LocationHit& hit, glm::vec3 direction, float density) const {
     const float perArea = emissive.density(hit.location);
-    if (!(perArea > 0.0f))
-        return glm::vec3(0.0f);
+    if (!(perArea > 0.0f)) return glm::vec3(0.0f);
     const SurfacePoint emitter = scene->surfaceAt(hit.location, direction);
     const float emittedCosine = -glm::dot(direction, emitter.geometricNormal);
-    if (!(emittedCosine > 0.0f))
-        return glm::vec3(0.0f);
+    if (!(emittedCosine > 0.0f)) return glm::vec3(0.0f);
     const float perSolidAngle = perArea * hit.distance * hit.distance / emittedCosine;
     return emitter.emission * (density / (density + perSolidAngle));
 }
@@ -166,12 +147,10 @@ glm::vec3 LightSampling::areasAlong(const Ray& ray, float hitDistance, float den
     glm::vec3 sum(0.0f);
     for (const Light& light : scene->scene().lights) {
         const float emittedCosine = -glm::dot(ray.direction, light.direction);
-        if (light.type != LightType::area || !(emittedCosine > 0.0f))
-            continue;
+        if (light.type != LightType::area || !(emittedCosine > 0.0f)) continue;
         const float distance = glm::dot(ray.origin - light.position, light.direction) / emittedCosine;
         const float clearance = (clearanceOf(light) + endClearance(distance)) / emittedCosine;
-        if (!(distance > 0.0f) || !(distance - clearance < hitDistance))
-            continue;
+        if (!(distance > 0.0f) || !(distance - clearance < hitDistance)) continue;
         const glm::vec3 place = ray.origin + ray.direction * distance - light.position;
         if (std::abs(glm::dot(place, light.right)) > 0.5f * light.size.x ||
             std::abs(glm::dot(place, upOf(light))) > 0.5f * light.size.y)

@@ -4,10 +4,10 @@
 // lights and far.
 #pragma once
 
-#include "lab/rays/embree_scene.hpp"
 #include "lab/light/emissive_surfaces.hpp"
 #include "lab/light/sampling.hpp"
 #include "lab/light/surface_lobes.hpp"
+#include "lab/rays/embree_scene.hpp"
 
 namespace rebound::lab {
 

@@ -34,9 +34,7 @@ uint32_t scramble(uint32_t x, uint32_t seed) {
 }
 
 // The 24 bits that a float holds, so that 1 is never reached.
-float toUnitInterval(uint32_t x) {
-    return float(x >> 8) * 0x1p-24f;
-}
+float toUnitInterval(uint32_t x) { return float(x >> 8) * 0x1p-24f; }
 
 } // namespace
 
@@ -48,9 +46,7 @@ uint32_t hashBits(uint32_t x) {
     return x ^ (x >> 16);
 }
 
-uint32_t hashBits(uint32_t a, uint32_t b) {
-    return hashBits(a ^ (hashBits(b + 0x9e3779b9u) * 0x01000193u));
-}
+uint32_t hashBits(uint32_t a, uint32_t b) { return hashBits(a ^ (hashBits(b + 0x9e3779b9u) * 0x01000193u)); }
 
 glm::vec2 sobolPoint(uint32_t index, uint32_t seed) {
     const uint32_t first = reverseBits(index);

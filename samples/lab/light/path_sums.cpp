@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/light/path_sums.hpp"
 
-#include "lab/scenes/content_hash.hpp"
 #include "lab/images/luminance.hpp"
+#include "lab/scenes/content_hash.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,7 @@ namespace {
 constexpr size_t firstSum = 1 + size_t(pathTracerReplicates);
 constexpr size_t quantityStride = 6; // sum and exact part, three channels each
 
-size_t sumOf(PathSums::Quantity quantity) {
-    return firstSum + size_t(quantity) * quantityStride;
-}
+size_t sumOf(PathSums::Quantity quantity) { return firstSum + size_t(quantity) * quantityStride; }
 
 // What stands before the values in saved bytes.
 struct Header {
@@ -29,8 +27,7 @@ struct Header {
 };
 
 void store(Image& image, size_t pixel, glm::vec3 value) {
-    for (int c = 0; c < 3; ++c)
-        image.data[pixel * 3 + size_t(c)] = value[c];
+    for (int c = 0; c < 3; ++c) image.data[pixel * 3 + size_t(c)] = value[c];
 }
 
 std::string hashOf(std::span<const double> values) {
@@ -68,8 +65,7 @@ glm::vec3 PathSums::mean(size_t pixel, Quantity quantity, int samples) const {
 double PathSums::standardError(size_t pixel, int samples) const {
     const double* sums = &values[pixel * stride + 1];
     double mean = 0.0, variance = 0.0;
-    for (int i = 0; i < pathTracerReplicates; ++i)
-        mean += sums[i] / pathTracerReplicates;
+    for (int i = 0; i < pathTracerReplicates; ++i) mean += sums[i] / pathTracerReplicates;
     for (int i = 0; i < pathTracerReplicates; ++i)
         variance += (sums[i] - mean) * (sums[i] - mean) / (pathTracerReplicates - 1);
     return std::sqrt(variance / pathTracerReplicates) / double(samples);
@@ -79,14 +75,12 @@ PathTracedLight PathSums::light(int samples) const {
     PathTracedLight light;
     light.direct = light.firstBounce = light.indirect = Image(extent, 3);
     light.standardError = Image(extent, 1);
-    if (hasGlossy)
-        light.glossy = Image(extent, 3);
+    if (hasGlossy) light.glossy = Image(extent, 3);
     for (size_t pixel = 0; pixel < values.size() / stride; ++pixel) {
         store(light.direct, pixel, mean(pixel, direct, samples));
         store(light.firstBounce, pixel, mean(pixel, firstBounce, samples));
         store(light.indirect, pixel, mean(pixel, indirect, samples));
-        if (hasGlossy)
-            store(light.glossy, pixel, mean(pixel, glossy, samples));
+        if (hasGlossy) store(light.glossy, pixel, mean(pixel, glossy, samples));
         light.standardError.data[pixel] = float(standardError(pixel, samples));
     }
     return light;
@@ -123,8 +117,7 @@ Result<int> PathSums::restore(const std::string& key, std::span<const std::byte>
     const auto damaged = [](const char* what) {
         return Error{ErrorCode::invalidData, std::string("the stored paths are ") + what};
     };
-    if (bytes.size() < sizeof header)
-        return damaged("incomplete");
+    if (bytes.size() < sizeof header) return damaged("incomplete");
     std::memcpy(&header, bytes.data(), sizeof header);
     if (std::memcmp(header.format, expected.format, sizeof header.format) != 0)
         return damaged("of another version");
@@ -135,8 +128,7 @@ Result<int> PathSums::restore(const std::string& key, std::span<const std::byte>
         return damaged("incomplete");
     std::vector<double> restored(values.size());
     std::memcpy(restored.data(), bytes.data() + sizeof header, restored.size() * sizeof(double));
-    if (hashOf(restored) != std::string(header.hash, sizeof header.hash))
-        return damaged("damaged");
+    if (hashOf(restored) != std::string(header.hash, sizeof header.hash)) return damaged("damaged");
     values = std::move(restored);
     return int(header.samples);
 }

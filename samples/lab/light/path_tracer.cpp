@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lab/light/path_tracer.hpp"
 
-#include "lab/rays/camera_rays.hpp"
 #include "lab/images/luminance.hpp"
-#include "lab/rays/parallel_rows.hpp"
 #include "lab/light/path_sums.hpp"
 #include "lab/light/path_walk.hpp"
+#include "lab/rays/camera_rays.hpp"
+#include "lab/rays/parallel_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +35,8 @@ struct DiffuseRecorder {
 
     void add(int bounces, glm::vec3 radiance) {
         pixel.add(bounces == 0 ? PathSums::direct : PathSums::indirect, radiance);
-        if (bounces == 1)
-            pixel.add(PathSums::firstBounce, radiance);
-        if (bounces >= measuredFrom)
-            pixel.addToReplicate(replicate, luminance(radiance));
+        if (bounces == 1) pixel.add(PathSums::firstBounce, radiance);
+        if (bounces >= measuredFrom) pixel.addToReplicate(replicate, luminance(radiance));
     }
     bool enter(int, const Reflector&) { return true; }
 };
@@ -54,8 +52,7 @@ struct GlossyRecorder {
 
 Result<> validate(const PathTracerOptions& o) {
     const auto checked = [](const char* name, int value, int least, int most) -> Result<> {
-        if (value >= least && value <= most)
-            return {};
+        if (value >= least && value <= most) return {};
         return outOfRange(name, std::to_string(value), std::to_string(least) + " to " + std::to_string(most));
     };
     for (const Result<>& valid :
@@ -63,10 +60,8 @@ Result<> validate(const PathTracerOptions& o) {
           checked("extent.height", o.extent.height, 1, maximumExtent),
           checked("bounces", o.bounces, 0, mostBounces), checked("samples", o.samples, 1, mostSamples),
           checked("threads", o.threads, 0, mostThreads)})
-        if (!valid)
-            return valid;
-    if (!(o.error >= 0.0 && o.error <= 1.0))
-        return outOfRange("error", std::to_string(o.error), "0 to 1");
+        if (!valid) return valid;
+    if (!(o.error >= 0.0 && o.error <= 1.0)) return outOfRange("error", std::to_string(o.error), "0 to 1");
     return {};
 }
 
@@ -113,21 +108,20 @@ struct PathTracer::State {
         for (int i = done; i < done + count; ++i)
             for (int replicate = 0; replicate < pathTracerReplicates; ++replicate) {
                 SampleSequence sequence(uint32_t(i), hashBits(seed, uint32_t(replicate) + 2u));
-                walkPath({embree, light, options.glossy, options.bounces}, start, sequence, recorderOf(replicate));
+                walkPath({embree, light, options.glossy, options.bounces}, start, sequence,
+                         recorderOf(replicate));
             }
     }
 
     void addDiffuse(PathSums::Pixel pixel, const Reflector& start, uint32_t seed, int count) {
-        if (done == 0)
-            pixel.setExact(PathSums::direct, light.fromPoints(start));
+        if (done == 0) pixel.setExact(PathSums::direct, light.fromPoints(start));
         addPaths(start, seed, count, [&](int replicate) {
             return DiffuseRecorder{pixel, replicate, std::min(1, options.bounces)};
         });
     }
 
     void addGlossy(PathSums::Pixel pixel, const Reflector& start, uint32_t seed, int count) {
-        if (done == 0)
-            pixel.setExact(PathSums::glossy, light.fromPoints(start));
+        if (done == 0) pixel.setExact(PathSums::glossy, light.fromPoints(start));
         addPaths(start, seed, count, [&](int) { return GlossyRecorder{pixel}; });
     }
 
@@ -171,13 +165,10 @@ PathTracer::~PathTracer() = default;
 
 Result<PathTracer> PathTracer::create(const Scene& scene, const CameraView& camera,
                                       const PathTracerOptions& options) {
-    if (auto valid = validate(options); !valid)
-        return valid.error();
-    if (auto valid = validate(camera); !valid)
-        return valid.error();
+    if (auto valid = validate(options); !valid) return valid.error();
+    if (auto valid = validate(camera); !valid) return valid.error();
     auto embree = EmbreeScene::build(scene);
-    if (!embree)
-        return embree.error();
+    if (!embree) return embree.error();
     try {
         return PathTracer(std::make_unique<State>(scene, camera, options, *std::move(embree)));
     } catch (const std::bad_alloc&) {
@@ -215,22 +206,15 @@ PathTracedLight PathTracer::light() const {
     return light;
 }
 
-int PathTracer::samples() const {
-    return state->done * pathTracerReplicates;
-}
+int PathTracer::samples() const { return state->done * pathTracerReplicates; }
 
-EmbreeScene& PathTracer::embreeScene() {
-    return state->embree;
-}
+EmbreeScene& PathTracer::embreeScene() { return state->embree; }
 
-std::vector<std::byte> PathTracer::save() const {
-    return state->sums.save(state->key, state->done);
-}
+std::vector<std::byte> PathTracer::save() const { return state->sums.save(state->key, state->done); }
 
 Result<> PathTracer::restore(std::span<const std::byte> bytes) {
     const auto restored = state->sums.restore(state->key, bytes);
-    if (!restored)
-        return restored.error();
+    if (!restored) return restored.error();
     state->done = *restored;
     state->error = state->sums.relativeError(state->done);
     return {};
@@ -239,10 +223,8 @@ Result<> PathTracer::restore(std::span<const std::byte> bytes) {
 Result<PathTracedLight> tracePaths(const Scene& scene, const CameraView& camera,
                                    const PathTracerOptions& options) {
     auto tracer = PathTracer::create(scene, camera, options);
-    if (!tracer)
-        return tracer.error();
-    while (!tracer->isDone())
-        tracer->addPass();
+    if (!tracer) return tracer.error();
+    while (!tracer->isDone()) tracer->addPass();
     return tracer->light();
 }
 

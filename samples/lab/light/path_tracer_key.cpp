@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/content_hash.hpp"
 #include "lab/light/path_tracer.hpp"
+#include "lab/scenes/content_hash.hpp"
 
 namespace rebound::lab {
 
@@ -61,8 +61,7 @@ void add(ContentHash& hash, const CameraView& camera) {
 template <class Part>
 void addAll(ContentHash& hash, const std::vector<Part>& parts) {
     hash.add(parts.size());
-    for (const Part& part : parts)
-        add(hash, part);
+    for (const Part& part : parts) add(hash, part);
 }
 
 } // namespace

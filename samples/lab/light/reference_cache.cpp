@@ -27,8 +27,7 @@ Result<> makeFolder(const fs::path& folder) {
 // What cannot be taken up is replaced.
 void takeUp(PathTracer& tracer, const fs::path& file) {
     const auto bytes = guardInput(file, [&] { return readFileBytes(file, largestFile, file); });
-    if (bytes)
-        static_cast<void>(tracer.restore(std::as_bytes(std::span(*bytes))));
+    if (bytes) static_cast<void>(tracer.restore(std::as_bytes(std::span(*bytes))));
 }
 
 } // namespace
@@ -36,16 +35,13 @@ void takeUp(PathTracer& tracer, const fs::path& file) {
 Result<PathTracedLight> cachedReference(const Scene& scene, const CameraView& camera,
                                         const PathTracerOptions& options, const fs::path& folder) {
     auto tracer = PathTracer::create(scene, camera, options);
-    if (!tracer)
-        return tracer.error();
-    if (auto made = makeFolder(folder); !made)
-        return made.error();
+    if (!tracer) return tracer.error();
+    if (auto made = makeFolder(folder); !made) return made.error();
     const fs::path file = folder / (pathTracerKey(scene, camera, options) + ".paths");
     takeUp(*tracer, file);
     while (!tracer->isDone()) {
         tracer->addPass();
-        if (auto written = writeFile(file, tracer->save()); !written)
-            return written.error();
+        if (auto written = writeFile(file, tracer->save()); !written) return written.error();
     }
     return tracer->light();
 }

@@ -21,18 +21,13 @@ glm::mat3 basisAbout(glm::vec3 n) {
 } // namespace
 
 float receivedCosine(const SurfacePoint& point, glm::vec3 direction) {
-    if (!(glm::dot(point.geometricNormal, direction) > 0.0f))
-        return 0.0f;
+    if (!(glm::dot(point.geometricNormal, direction) > 0.0f)) return 0.0f;
     return std::max(0.0f, glm::dot(point.shadingNormal, direction));
 }
 
-glm::vec3 fromTangentSpace(glm::vec3 normal, glm::vec3 vector) {
-    return basisAbout(normal) * vector;
-}
+glm::vec3 fromTangentSpace(glm::vec3 normal, glm::vec3 vector) { return basisAbout(normal) * vector; }
 
-glm::vec3 toTangentSpace(glm::vec3 normal, glm::vec3 vector) {
-    return vector * basisAbout(normal);
-}
+glm::vec3 toTangentSpace(glm::vec3 normal, glm::vec3 vector) { return vector * basisAbout(normal); }
 
 glm::vec3 cosineDirection(glm::vec3 normal, glm::vec2 square) {
     const float radius = std::sqrt(square.x);

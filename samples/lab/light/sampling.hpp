@@ -2,8 +2,8 @@
 // Random numbers along a path, and directions made of them.
 #pragma once
 
-#include "lab/rays/embree_scene.hpp"
 #include "lab/light/low_discrepancy.hpp"
+#include "lab/rays/embree_scene.hpp"
 
 namespace rebound::lab {
 

@@ -17,13 +17,9 @@ constexpr float dielectricReflectance = 0.04f; // of glTF 2.0: a refractive inde
 constexpr float smallestAlpha =
     1e-3f; // a mirror within half a milliradian; narrower lobes leave float's range
 
-float squared(float x) {
-    return x * x;
-}
+float squared(float x) { return x * x; }
 
-float exponentOf(float alpha) {
-    return 2.0f / squared(alpha) - 2.0f;
-}
+float exponentOf(float alpha) { return 2.0f / squared(alpha) - 2.0f; }
 
 // Powers of cosines near 1, where std::pow in single precision would lose the small difference.
 float powerOfCosine(float cosine, float exponent) {
@@ -35,9 +31,7 @@ glm::vec3 fresnel(glm::vec3 normalReflectance, float cosine) {
            (1.0f - normalReflectance) * std::pow(std::clamp(1.0f - cosine, 0.0f, 1.0f), 5.0f);
 }
 
-glm::vec3 mirrored(glm::vec3 n, glm::vec3 direction) {
-    return 2.0f * glm::dot(n, direction) * n - direction;
-}
+glm::vec3 mirrored(glm::vec3 n, glm::vec3 direction) { return 2.0f * glm::dot(n, direction) * n - direction; }
 
 // Density of half vectors, per solid angle, times their cosine: what they cover of the surface.
 float distribution(const SpecularLobe& lobe, float cosine) {
@@ -92,8 +86,7 @@ glm::vec3 powerDirection(float exponentPlusOne, glm::vec2 square) {
 SpecularLobe specularLobeOf(const Material& material, glm::vec3 albedo, GlossyModel model) {
     SpecularLobe lobe;
     lobe.model = model;
-    if (model == GlossyModel::diffuseOnly)
-        return lobe;
+    if (model == GlossyModel::diffuseOnly) return lobe;
     lobe.normalReflectance = glm::mix(glm::vec3(dielectricReflectance), albedo, material.metallic);
     lobe.alpha = std::clamp(squared(material.roughness), smallestAlpha, 1.0f);
     return lobe;
@@ -122,8 +115,7 @@ glm::vec3 SpecularLobe::value(glm::vec3 n, glm::vec3 viewer, glm::vec3 light) co
 
 float SpecularLobe::density(glm::vec3 n, glm::vec3 viewer, glm::vec3 light) const {
     const float cosineViewer = glm::dot(n, viewer);
-    if (model == GlossyModel::diffuseOnly || !(cosineViewer > 0.0f))
-        return 0.0f;
+    if (model == GlossyModel::diffuseOnly || !(cosineViewer > 0.0f)) return 0.0f;
     if (model == GlossyModel::phong) {
         const float exponent = exponentOf(alpha);
         return (exponent + 1.0f) / (2.0f * pi) *
@@ -131,8 +123,7 @@ float SpecularLobe::density(glm::vec3 n, glm::vec3 viewer, glm::vec3 light) cons
     }
     const glm::vec3 sum = viewer + light;
     const float length = glm::length(sum);
-    if (!(length > 0.0f) || !(glm::dot(n, sum) > 0.0f))
-        return 0.0f;
+    if (!(length > 0.0f) || !(glm::dot(n, sum) > 0.0f)) return 0.0f;
     const glm::vec3 half = sum / length;
     const float cosineHalf = glm::dot(n, half);
     if (model == GlossyModel::blinnPhong)
@@ -156,8 +147,7 @@ glm::vec3 SurfaceLobes::value(glm::vec3 n, glm::vec3 viewer, glm::vec3 light) co
 
 float SurfaceLobes::density(glm::vec3 n, glm::vec3 viewer, glm::vec3 light) const {
     const float cosine = std::max(0.0f, glm::dot(n, light)) / pi;
-    if (specularShare == 0.0f)
-        return cosine;
+    if (specularShare == 0.0f) return cosine;
     return (1.0f - specularShare) * cosine + specularShare * specular.density(n, viewer, light);
 }
 

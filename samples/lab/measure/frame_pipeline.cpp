@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/frame_pipeline.hpp"
 
-#include "lab/scenes/camera_matrices.hpp"
 #include "lab/runner/texels.hpp"
+#include "lab/scenes/camera_matrices.hpp"
 
 #include <algorithm>
 
@@ -15,8 +15,7 @@ size_t limitToRange(lab::Image& image) {
     size_t count = 0;
     for (size_t i = 0; i < image.data.size(); i += 3) {
         count += std::max({image.data[i], image.data[i + 1], image.data[i + 2]}) > runner::largestHalf;
-        for (size_t c = 0; c < 3; ++c)
-            image.data[i + c] = std::min(image.data[i + c], runner::largestHalf);
+        for (size_t c = 0; c < 3; ++c) image.data[i + c] = std::min(image.data[i + c], runner::largestHalf);
     }
     return count;
 }
@@ -30,22 +29,19 @@ Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const Scree
     pipeline.settings_.conventions.projection =
         frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
     auto plan = planScreenIndirect(pipeline.settings_);
-    if (!plan)
-        return plan.error();
+    if (!plan) return plan.error();
     pipeline.outgoing = lab::outgoingRadiance(frame);
     pipeline.limited = limitToRange(pipeline.outgoing);
     const Camera camera = lab::cameraMatrices(frame.camera, pipeline.settings_.resolution);
     auto inputs = screenIndirectInputs(
-        pipeline.settings_, ScreenIndirectFrame<lab::Image>{camera, frame.depth, frame.normal, pipeline.outgoing,
-                                                            frame.albedo, pipeline.outgoing, {}, {}});
-    if (!inputs)
-        return inputs.error();
+        pipeline.settings_,
+        ScreenIndirectFrame<lab::Image>{
+            camera, frame.depth, frame.normal, pipeline.outgoing, frame.albedo, pipeline.outgoing, {}, {}});
+    if (!inputs) return inputs.error();
     auto prepared = backend.prepare(*plan, *inputs, {precision, false});
-    if (!prepared)
-        return prepared.error();
+    if (!prepared) return prepared.error();
     pipeline.prepared = *std::move(prepared);
-    if (precision == runner::Precision::half)
-        runner::roundTo(Format::rgba16f, pipeline.outgoing);
+    if (precision == runner::Precision::half) runner::roundTo(Format::rgba16f, pipeline.outgoing);
     return pipeline;
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lab/rays/frame.hpp"
-#include "rebound/techniques/screen_indirect.hpp"
 #include "lab/runner/runner.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
 
 namespace rebound::measure {
 

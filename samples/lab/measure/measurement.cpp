@@ -9,8 +9,7 @@ namespace {
 
 void add(Measurement& measurement, const std::vector<PassTiming>& timings, double frameMilliseconds) {
     if (measurement.passes.empty())
-        for (const PassTiming& pass : timings)
-            measurement.passes.push_back({pass.label, {}});
+        for (const PassTiming& pass : timings) measurement.passes.push_back({pass.label, {}});
     for (size_t i = 0; i < timings.size(); ++i)
         measurement.passes[i].milliseconds.push_back(timings[i].milliseconds);
     measurement.frame.milliseconds.push_back(frameMilliseconds);
@@ -18,9 +17,7 @@ void add(Measurement& measurement, const std::vector<PassTiming>& timings, doubl
 
 } // namespace
 
-double Series::minimum() const {
-    return *std::min_element(milliseconds.begin(), milliseconds.end());
-}
+double Series::minimum() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
 
 double Series::percentile(double share) const {
     std::vector<double> sorted = milliseconds;
@@ -36,14 +33,11 @@ Result<Measurement> measureFrames(FramePipeline& pipeline, const MeasureOptions&
     const int total = options.warmUp + options.frames;
     for (int i = 0; i < total; ++i) {
         const auto milliseconds = pipeline.run();
-        if (!milliseconds)
-            return milliseconds.error();
-        if (i >= options.warmUp)
-            add(measurement, pipeline.timings(), *milliseconds);
+        if (!milliseconds) return milliseconds.error();
+        if (i >= options.warmUp) add(measurement, pipeline.timings(), *milliseconds);
         if (const auto recording = pipeline.recordingTime(); recording && i >= options.warmUp)
             measurement.recording.milliseconds.push_back(*recording);
-        if (options.progress)
-            options.progress(double(i + 1) / double(total));
+        if (options.progress) options.progress(double(i + 1) / double(total));
     }
     return measurement;
 }

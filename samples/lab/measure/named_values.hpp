@@ -21,8 +21,7 @@ template <class T>
 Result<T> valueNamed(const std::string& option, const std::string& wanted, Names<T> names) {
     std::string known;
     for (const auto& [name, value] : names) {
-        if (wanted == name)
-            return value;
+        if (wanted == name) return value;
         known += (known.empty() ? "" : ", ") + std::string(name);
     }
     return unexpected(option, wanted, "one of " + known);
@@ -31,8 +30,7 @@ Result<T> valueNamed(const std::string& option, const std::string& wanted, Names
 template <class T>
 const char* nameIn(Names<T> names, T wanted) {
     for (const auto& [name, value] : names)
-        if (value == wanted)
-            return name;
+        if (value == wanted) return name;
     return "?";
 }
 

@@ -25,8 +25,7 @@ constexpr std::pair<const char*, runner::Precision> precisionNames[] = {{"half",
 
 // From the option's name without its dashes.
 std::string spelledName(std::string name, Spelling spelling) {
-    if (spelling == Spelling::options)
-        return "--" + name;
+    if (spelling == Spelling::options) return "--" + name;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 }
@@ -36,19 +35,17 @@ template <class T>
 std::optional<T> parseNumber(std::string_view text) {
     T value{};
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (failure != std::errc() || end != text.data() + text.size())
-        return std::nullopt;
+    if (failure != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
 }
 
 // Replaces a preset's value where the draft has one.
 template <class T>
-Result<> replace(T& setting, const std::string& what, const std::optional<std::string>& wanted, Names<T> names) {
-    if (!wanted)
-        return {};
+Result<> replace(T& setting, const std::string& what, const std::optional<std::string>& wanted,
+                 Names<T> names) {
+    if (!wanted) return {};
     const auto value = valueNamed<T>(what, *wanted, names);
-    if (!value)
-        return value.error();
+    if (!value) return value.error();
     setting = *value;
     return {};
 }
@@ -56,15 +53,13 @@ Result<> replace(T& setting, const std::string& what, const std::optional<std::s
 // After all other settings, on which the covering radius depends.
 Result<> replaceRadius(ScreenIndirectSettings& settings, const std::string& what,
                        const std::optional<std::string>& wanted) {
-    if (!wanted)
-        return {};
+    if (!wanted) return {};
     if (*wanted == "auto") {
         settings.ringRadius = coveringRingRadius(settings);
         return {};
     }
     const auto radius = parseNumber<float>(*wanted);
-    if (!radius)
-        return unexpected(what, *wanted, "auto or a number of texels, 1 to 1024,");
+    if (!radius) return unexpected(what, *wanted, "auto or a number of texels, 1 to 1024,");
     settings.ringRadius = *radius;
     return {};
 }
@@ -79,18 +74,10 @@ constexpr std::array<std::pair<std::string_view, const char*>, 5> nameOfSetting{
 
 } // namespace
 
-const char* nameOf(StartResolution value) {
-    return nameIn<StartResolution>(startNames, value);
-}
-const char* nameOf(Reduction value) {
-    return nameIn<Reduction>(reductionNames, value);
-}
-const char* nameOf(FormFactor value) {
-    return nameIn<FormFactor>(formFactorNames, value);
-}
-const char* nameOf(runner::Precision value) {
-    return nameIn<runner::Precision>(precisionNames, value);
-}
+const char* nameOf(StartResolution value) { return nameIn<StartResolution>(startNames, value); }
+const char* nameOf(Reduction value) { return nameIn<Reduction>(reductionNames, value); }
+const char* nameOf(FormFactor value) { return nameIn<FormFactor>(formFactorNames, value); }
+const char* nameOf(runner::Precision value) { return nameIn<runner::Precision>(precisionNames, value); }
 
 Result<Extent2D> parseSize(const std::string& what, const std::string& text) {
     const size_t times = text.find('x');
@@ -98,8 +85,7 @@ Result<Extent2D> parseSize(const std::string& what, const std::string& text) {
     if (times != std::string::npos) {
         const auto width = parseNumber<int>(std::string_view(text).substr(0, times));
         const auto height = parseNumber<int>(std::string_view(text).substr(times + 1));
-        if (inRange(width) && inRange(height))
-            return Extent2D{*width, *height};
+        if (inRange(width) && inRange(height)) return Extent2D{*width, *height};
     }
     return unexpected(what, text, "WIDTHxHEIGHT, each 1 to " + std::to_string(maximumExtent) + " pixels,");
 }
@@ -108,15 +94,18 @@ Result<runner::Precision> precisionNamed(const std::string& what, const std::str
     return valueNamed<runner::Precision>(what, name, precisionNames);
 }
 
-Result<ScreenIndirectSettings> settingsOf(const SettingsDraft& draft, Extent2D resolution, Spelling spelling) {
+Result<ScreenIndirectSettings> settingsOf(const SettingsDraft& draft, Extent2D resolution,
+                                          Spelling spelling) {
     auto preset = screenIndirectPreset(draft.preset, resolution);
     if (!preset)
-        return Error{preset.error().code, (spelling == Spelling::options ? "--" : "") + preset.error().message};
+        return Error{preset.error().code,
+                     (spelling == Spelling::options ? "--" : "") + preset.error().message};
     ScreenIndirectSettings settings = *std::move(preset);
     const auto called = [&](const char* name) { return spelledName(name, spelling); };
     if (auto set = replace<StartResolution>(settings.start, called("start"), draft.start, startNames); !set)
         return set.error();
-    if (auto set = replace<Reduction>(settings.reduction, called("reduce"), draft.reduction, reductionNames); !set)
+    if (auto set = replace<Reduction>(settings.reduction, called("reduce"), draft.reduction, reductionNames);
+        !set)
         return set.error();
     if (auto set = replace<FormFactor>(settings.formFactor, called("form-factor"), draft.formFactor,
                                        formFactorNames);
@@ -124,7 +113,9 @@ Result<ScreenIndirectSettings> settingsOf(const SettingsDraft& draft, Extent2D r
         return set.error();
     if (auto set = replace<bool>(settings.smooth, called("smooth"), draft.smooth, switchNames); !set)
         return set.error();
-    if (auto set = replace<bool>(settings.coverScreen, called("cover-screen"), draft.coverScreen, switchNames); !set)
+    if (auto set =
+            replace<bool>(settings.coverScreen, called("cover-screen"), draft.coverScreen, switchNames);
+        !set)
         return set.error();
     settings.levels = draft.levels.value_or(settings.levels);
     settings.samplesPerLevel = draft.samples.value_or(settings.samplesPerLevel);
@@ -146,8 +137,7 @@ Error spelled(Error error, Spelling spelling) {
 
 Result<Plan> planOf(const ScreenIndirectSettings& settings, Spelling spelling) {
     auto plan = planScreenIndirect(settings);
-    if (!plan)
-        return spelled(plan.error(), spelling);
+    if (!plan) return spelled(plan.error(), spelling);
     return plan;
 }
 

@@ -2,8 +2,8 @@
 // Settings of the technique as people write them, on a command line or in a file.
 #pragma once
 
-#include "rebound/techniques/screen_indirect.hpp"
 #include "lab/runner/runner.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
 
 #include <optional>
 #include <string>

@@ -74,8 +74,7 @@ double roundedUp(double value) {
 std::vector<double> ticksUpTo(double largest) {
     const double step = roundedUp(largest / 5.0);
     std::vector<double> ticks;
-    for (int i = 0; double(i) * step < largest - 0.5 * step; ++i)
-        ticks.push_back(double(i) * step);
+    for (int i = 0; double(i) * step < largest - 0.5 * step; ++i) ticks.push_back(double(i) * step);
     ticks.push_back(largest);
     return ticks;
 }
@@ -83,8 +82,7 @@ std::vector<double> ticksUpTo(double largest) {
 lab::Picture withColorBar(const lab::Picture& picture, double largest) {
     const std::vector<double> ticks = ticksUpTo(largest);
     size_t longest = 0;
-    for (const double tick : ticks)
-        longest = std::max(longest, labelOf(tick).size());
+    for (const double tick : ticks) longest = std::max(longest, labelOf(tick).size());
     Layout layout;
     layout.scale = picture.height >= heightForLargeText ? 2 : 1;
     layout.left = picture.width + margin * layout.scale;

@@ -17,8 +17,7 @@ namespace {
 double meanOf(const Plane& plane, const ComparedPixels& pixels) {
     double sum = 0.0;
     for (size_t i = 0; i < pixels.states.size(); ++i)
-        if (pixels.states[i] == PixelState::counts)
-            sum += plane.values[i];
+        if (pixels.states[i] == PixelState::counts) sum += plane.values[i];
     return sum / double(pixels.counting);
 }
 
@@ -34,8 +33,7 @@ Result<> checkOptions(const CompareOptions& options) {
 
 Result<ErrorMetrics> measure(const lab::Image& test, const lab::Image& truth, const CompareOptions& options) {
     const auto pixels = classifyPixels(test, truth, options.mask);
-    if (!pixels)
-        return pixels.error();
+    if (!pixels) return pixels.error();
     ErrorMetrics metrics;
     metrics.pixels = pixels->counting;
     metrics.maskedOut = pixels->maskedOut;
@@ -54,8 +52,7 @@ Result<ErrorMetrics> measure(const lab::Image& test, const lab::Image& truth, co
 
 Result<ErrorMetrics> compareImages(const lab::Image& test, const lab::Image& truth,
                                    const CompareOptions& options) {
-    if (auto valid = checkOptions(options); !valid)
-        return valid.error();
+    if (auto valid = checkOptions(options); !valid) return valid.error();
     try {
         return measure(test, truth, options);
     } catch (const std::bad_alloc&) {

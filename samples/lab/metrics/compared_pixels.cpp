@@ -17,9 +17,7 @@ std::string channelsOf(const lab::Image& image) {
     return std::to_string(image.channels) + (image.channels == 1 ? " channel" : " channels");
 }
 
-Error unfit(std::string message) {
-    return {ErrorCode::invalidData, std::move(message)};
-}
+Error unfit(std::string message) { return {ErrorCode::invalidData, std::move(message)}; }
 
 Result<> checkFit(const lab::Image& test, const lab::Image& truth, const lab::Image* mask) {
     if (test.empty() || truth.empty())
@@ -36,16 +34,14 @@ Result<> checkFit(const lab::Image& test, const lab::Image& truth, const lab::Im
     if (mask && !(mask->extent() == truth.extent()))
         return unfit("the mask is " + sizeOf(*mask) + ", the pictures " + sizeOf(truth) +
                      "; one size was expected");
-    if (mask && mask->channels != 1)
-        return unfit("the mask has " + channelsOf(*mask) + "; 1 was expected");
+    if (mask && mask->channels != 1) return unfit("the mask has " + channelsOf(*mask) + "; 1 was expected");
     return {};
 }
 
 // Why there is nothing to compare.
 Error noneCounts(const ComparedPixels& pixels) {
     std::string message = "no pixel can be compared: of " + std::to_string(pixels.states.size()) + ", ";
-    if (pixels.maskedOut > 0)
-        message += std::to_string(pixels.maskedOut) + " are masked out and ";
+    if (pixels.maskedOut > 0) message += std::to_string(pixels.maskedOut) + " are masked out and ";
     return unfit(message + std::to_string(pixels.notFinite) + " are not finite; at least one was expected");
 }
 
@@ -57,8 +53,7 @@ bool isFinite(const float* pixel, int channels) {
 
 Result<ComparedPixels> classifyPixels(const lab::Image& test, const lab::Image& truth,
                                       const lab::Image* mask) {
-    if (auto fits = checkFit(test, truth, mask); !fits)
-        return fits.error();
+    if (auto fits = checkFit(test, truth, mask); !fits) return fits.error();
     ComparedPixels pixels;
     pixels.states.assign(test.data.size() / size_t(test.channels), PixelState::counts);
     const float* t = test.data.data();
@@ -79,8 +74,7 @@ Result<ComparedPixels> classifyPixels(const lab::Image& test, const lab::Image& 
             ++pixels.counting;
         }
     }
-    if (pixels.counting == 0)
-        return noneCounts(pixels);
+    if (pixels.counting == 0) return noneCounts(pixels);
     return pixels;
 }
 

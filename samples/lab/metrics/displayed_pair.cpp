@@ -33,8 +33,7 @@ DisplayedPair displayedPair(const lab::Image& test, const lab::Image& truth, con
             const float* r = truth.at(x, y);
             const size_t i = size_t(y) * size_t(test.width) + size_t(x);
             if (pixels.states[i] != PixelState::counts) {
-                if (!isFinite(r, channels))
-                    r = isFinite(t, channels) ? t : black;
+                if (!isFinite(r, channels)) r = isFinite(t, channels) ? t : black;
                 t = r;
             }
             showPixel(t, channels, curve, pair.test, i);

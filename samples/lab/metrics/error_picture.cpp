@@ -22,22 +22,19 @@ constexpr Rgb maskedOutColor{64, 64, 64};
 double usefulLargest(const lab::Image& test, const lab::Image& truth, const ComparedPixels& pixels) {
     std::vector<double> differences = largestDifferences(test, truth, pixels);
     double largest = percentileOf(differences, 99);
-    if (largest == 0.0)
-        largest = *std::max_element(differences.begin(), differences.end());
+    if (largest == 0.0) largest = *std::max_element(differences.begin(), differences.end());
     return largest == 0.0 ? 1.0 : roundedUp(largest);
 }
 
 Rgb colorOf(PixelState state, double difference, double largest) {
-    if (state == PixelState::maskedOut)
-        return maskedOutColor;
+    if (state == PixelState::maskedOut) return maskedOutColor;
     return state == PixelState::notFinite ? notFiniteColor : viridis(difference / largest);
 }
 
 Result<lab::Picture> paint(const lab::Image& test, const lab::Image& truth, const CompareOptions& options,
                            std::optional<double> wanted) {
     const auto pixels = classifyPixels(test, truth, options.mask);
-    if (!pixels)
-        return pixels.error();
+    if (!pixels) return pixels.error();
     const double largest = wanted ? *wanted : usefulLargest(test, truth, *pixels);
     lab::Picture picture{test.width, test.height, {}};
     picture.rgb.reserve(pixels->states.size() * 3);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/metrics/flip.hpp"
 
-#include "lab/rays/parallel_rows.hpp"
 #include "lab/metrics/flip_colors.hpp"
 #include "lab/metrics/flip_filters.hpp"
+#include "lab/rays/parallel_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,7 @@ void convertPixels(ColorPlanes& planes, const Convert& convert) {
         double* const rows[3] = {planes[0].row(y), planes[1].row(y), planes[2].row(y)};
         for (int x = 0; x < planes[0].width; ++x) {
             const glm::dvec3 converted = convert(glm::dvec3(rows[0][x], rows[1][x], rows[2][x]));
-            for (int c = 0; c < 3; ++c)
-                rows[c][x] = converted[c];
+            for (int c = 0; c < 3; ++c) rows[c][x] = converted[c];
         }
     });
 }
@@ -63,8 +62,7 @@ Percept perceptOf(ColorPlanes picture, double pixelsPerDegree) {
         return huntLabOfLinear(glm::clamp(linearOfYCxCz(yCxCz), 0.0, 1.0));
     });
     Plane& luminance = picture[0];
-    for (double& y : luminance.values)
-        y = (y + 16.0) / 116.0;
+    for (double& y : luminance.values) y = (y + 16.0) / 116.0;
     const FeatureFilters features = featureFilters(pixelsPerDegree);
     percept.edges = strengthOf(luminance, features.edge, features.gaussian);
     percept.points = strengthOf(luminance, features.point, features.gaussian);

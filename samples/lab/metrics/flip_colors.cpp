@@ -29,9 +29,7 @@ double compressed(double value) {
 }
 
 // Section 4.1.3's exponent qc.
-double power(double distance) {
-    return std::pow(distance, 0.7);
-}
+double power(double distance) { return std::pow(distance, 0.7); }
 
 double largestPower() {
     return power(hyabDistance(huntLabOfLinear({0.0, 1.0, 0.0}), huntLabOfLinear({0.0, 0.0, 1.0})));

@@ -34,10 +34,8 @@ double volumeOf(const SensitivityTerm& term, double pixelsPerDegree, int radius)
 // Divides positive weights by their sum, and negative ones by minus theirs.
 Weights balanced(Weights weights) {
     double positive = 0.0, negative = 0.0;
-    for (const double weight : weights)
-        (weight > 0.0 ? positive : negative) += weight;
-    for (double& weight : weights)
-        weight /= weight > 0.0 ? positive : -negative;
+    for (const double weight : weights) (weight > 0.0 ? positive : negative) += weight;
+    for (double& weight : weights) weight /= weight > 0.0 ? positive : -negative;
     return weights;
 }
 

@@ -20,9 +20,7 @@ void forEachValue(const lab::Image& test, const lab::Image& truth, const Compare
                 body(double(test.data[c]), double(truth.data[c]));
 }
 
-double square(double value) {
-    return value * value;
-}
+double square(double value) { return value * value; }
 
 // A floor of a hundredth of the mean keeps dark pixels from deciding alone.
 double relativeSquaredError(double t, double r, double truthMean) {

@@ -11,14 +11,11 @@ namespace rebound::metrics {
 
 namespace {
 
-int radiusOf(const Weights& weights) {
-    return int(weights.size() / 2);
-}
+int radiusOf(const Weights& weights) { return int(weights.size() / 2); }
 
 // A weight at a time over a whole row, so that compilers can use vector instructions.
 void addScaled(double* sums, const double* values, double weight, int count) {
-    for (int x = 0; x < count; ++x)
-        sums[x] += weight * values[x];
+    for (int x = 0; x < count; ++x) sums[x] += weight * values[x];
 }
 
 } // namespace
@@ -54,11 +51,9 @@ Plane filtered(const Plane& plane, const Weights& alongRows, const Weights& alon
 
 Weights gaussianWeights(double k, int radius) {
     Weights weights;
-    for (int x = -radius; x <= radius; ++x)
-        weights.push_back(std::exp(-k * double(x) * double(x)));
+    for (int x = -radius; x <= radius; ++x) weights.push_back(std::exp(-k * double(x) * double(x)));
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    for (double& weight : weights)
-        weight /= sum;
+    for (double& weight : weights) weight /= sum;
     return weights;
 }
 

@@ -14,8 +14,7 @@ constexpr double c2 = 0.03 * 0.03;
 
 Plane productOf(const Plane& a, const Plane& b) {
     Plane product(a.width, a.height);
-    for (size_t i = 0; i < product.values.size(); ++i)
-        product.values[i] = a.values[i] * b.values[i];
+    for (size_t i = 0; i < product.values.size(); ++i) product.values[i] = a.values[i] * b.values[i];
     return product;
 }
 

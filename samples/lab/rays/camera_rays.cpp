@@ -9,9 +9,7 @@ namespace rebound::lab {
 
 namespace {
 
-bool finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 template <class... Parts>
 Error cameraError(const CameraView& camera, const Parts&... parts) {
@@ -42,8 +40,7 @@ Result<> validate(const CameraView& camera) {
         return cameraError(camera, "position, target and up must be finite");
     const glm::dvec3 view = glm::dvec3(camera.target) - glm::dvec3(camera.position);
     const glm::dvec3 up = camera.up;
-    if (glm::length(view) == 0.0)
-        return cameraError(camera, "position and target are the same point");
+    if (glm::length(view) == 0.0) return cameraError(camera, "position and target are the same point");
     // Below this sine the image's rotation about the axis is rounding noise.
     constexpr double smallestSine = 1e-6;
     if (!(glm::length(glm::cross(view, up)) > smallestSine * glm::length(view) * glm::length(up)))
@@ -64,21 +61,18 @@ CameraRays::CameraRays(const CameraView& camera, Extent2D imageExtent)
 CameraRay CameraRays::throughPixel(int x, int y) const {
     const glm::dvec3 offset =
         right * (2.0 * (x + 0.5) / extent.width - 1.0) + up * (1.0 - 2.0 * (y + 0.5) / extent.height);
-    if (orthographic)
-        return {eye + offset, forward};
+    if (orthographic) return {eye + offset, forward};
     return {eye, forward + offset};
 }
 
 std::optional<CameraRays::Projection> CameraRays::project(glm::dvec3 point) const {
     const glm::dvec3 towards = point - eye;
     const double depth = glm::dot(towards, forward);
-    if (!(depth > 0.0))
-        return std::nullopt;
+    if (!(depth > 0.0)) return std::nullopt;
     const double scale = orthographic ? 1.0 : 1.0 / depth;
     const double x = glm::dot(towards, right) / glm::dot(right, right) * scale;
     const double y = glm::dot(towards, up) / glm::dot(up, up) * scale;
-    if (!(std::abs(x) <= 1.0 && std::abs(y) <= 1.0))
-        return std::nullopt;
+    if (!(std::abs(x) <= 1.0 && std::abs(y) <= 1.0)) return std::nullopt;
     return Projection{orthographic ? eye + x * right + y * up : eye, depth};
 }
 

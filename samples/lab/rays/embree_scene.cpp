@@ -53,8 +53,7 @@ struct MeshLookup {
     const Texture* emission = nullptr;
 
     bool isHole(const SurfaceLocation& at) const {
-        if (!material->alphaMasked)
-            return false;
+        if (!material->alphaMasked) return false;
         const float opacity = color ? sampleOpacity(*color, textureCoordinate(*mesh, at)) : 1.0f;
         return opacity * material->baseColor.a < material->alphaCutoff;
     }
@@ -70,28 +69,24 @@ MeshLookup makeLookup(const Scene& scene, const Mesh& mesh) {
 void rejectHoles(const RTCFilterFunctionNArguments* arguments) {
     const auto& lookup = *static_cast<const MeshLookup*>(arguments->geometryUserPtr);
     for (unsigned i = 0; i < arguments->N; ++i) {
-        if (arguments->valid[i] == 0)
-            continue;
+        if (arguments->valid[i] == 0) continue;
         const SurfaceLocation at{
             RTCHitN_geomID(arguments->hit, arguments->N, i), RTCHitN_primID(arguments->hit, arguments->N, i),
             RTCHitN_u(arguments->hit, arguments->N, i), RTCHitN_v(arguments->hit, arguments->N, i)};
-        if (lookup.isHole(at))
-            arguments->valid[i] = 0;
+        if (lookup.isHole(at)) arguments->valid[i] = 0;
     }
 }
 
 template <class Element>
 bool copyBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const void* data, size_t count) {
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), count);
-    if (buffer)
-        std::memcpy(buffer, data, sizeof(Element) * count);
+    if (buffer) std::memcpy(buffer, data, sizeof(Element) * count);
     return buffer != nullptr;
 }
 
 bool attach(RTCDevice device, RTCScene scene, const MeshLookup& lookup, unsigned id) {
     const Mesh& mesh = *lookup.mesh;
-    if (mesh.indices.empty())
-        return true;
+    if (mesh.indices.empty()) return true;
     const GeometryOwner geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     if (!geometry ||
         !copyBuffer<glm::vec3>(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
@@ -123,9 +118,7 @@ RTCRay toEmbree(const Ray& ray) {
     return out;
 }
 
-float largestComponent(glm::vec3 v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
+float largestComponent(glm::vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 constexpr float fewUnitsInLastPlace = 6.0f * std::numeric_limits<float>::epsilon();
 
@@ -148,17 +141,14 @@ void refine(const Ray& ray, const Mesh& mesh, SurfaceHit& hit) {
     const double distance = glm::dot(a - origin, normal) / glm::dot(direction, normal);
     // Where a triangle is edge-on or has no area, the quotient is noise.
     constexpr double agreement = 1e-3;
-    if (!(std::abs(distance - double(hit.distance)) <= agreement * double(hit.distance)))
-        return;
+    if (!(std::abs(distance - double(hit.distance)) <= agreement * double(hit.distance))) return;
     hit.distance = float(distance);
     hit.point.position = glm::vec3(origin + distance * direction);
 }
 
 } // namespace
 
-float endClearance(float rayLength) {
-    return fewUnitsInLastPlace * rayLength;
-}
+float endClearance(float rayLength) { return fewUnitsInLastPlace * rayLength; }
 
 struct EmbreeScene::State {
     const Scene* scene = nullptr;
@@ -174,8 +164,7 @@ EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
 EmbreeScene::~EmbreeScene() = default;
 
 Result<EmbreeScene> EmbreeScene::build(const Scene& scene) {
-    if (auto valid = validate(scene); !valid)
-        return valid.error();
+    if (auto valid = validate(scene); !valid) return valid.error();
     try {
         auto state = std::make_unique<State>();
         state->scene = &scene;
@@ -183,16 +172,13 @@ Result<EmbreeScene> EmbreeScene::build(const Scene& scene) {
         // surfaces overlap.
         state->device.reset(rtcNewDevice("threads=1"));
         state->handle.reset(state->device ? rtcNewScene(state->device.get()) : nullptr);
-        if (!state->handle)
-            return Error{ErrorCode::unsupported, "Embree cannot start on this machine"};
+        if (!state->handle) return Error{ErrorCode::unsupported, "Embree cannot start on this machine"};
         rtcSetSceneFlags(state->handle.get(), RTC_SCENE_FLAG_ROBUST);
-        for (const Mesh& mesh : scene.meshes)
-            state->lookups.push_back(makeLookup(scene, mesh));
+        for (const Mesh& mesh : scene.meshes) state->lookups.push_back(makeLookup(scene, mesh));
         bool attached = true;
         for (size_t i = 0; i < scene.meshes.size() && attached; ++i)
             attached = attach(state->device.get(), state->handle.get(), state->lookups[i], unsigned(i));
-        if (attached)
-            rtcCommitScene(state->handle.get());
+        if (attached) rtcCommitScene(state->handle.get());
         if (const RTCError error = rtcGetDeviceError(state->device.get());
             error != RTC_ERROR_NONE || !attached)
             return Error{error == RTC_ERROR_OUT_OF_MEMORY ? ErrorCode::outOfMemory : ErrorCode::invalidData,
@@ -205,8 +191,7 @@ Result<EmbreeScene> EmbreeScene::build(const Scene& scene) {
 }
 
 std::optional<LocationHit> EmbreeScene::locate(const Ray& ray) const {
-    if (state->observer)
-        state->observer(ray, false);
+    if (state->observer) state->observer(ray, false);
     RTCRayHit query{};
     query.ray = toEmbree(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -214,24 +199,21 @@ std::optional<LocationHit> EmbreeScene::locate(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(state->handle.get(), &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return std::nullopt;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     const SurfaceLocation at{query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
     return LocationHit{at, query.ray.tfar};
 }
 
 std::optional<SurfaceHit> EmbreeScene::intersect(const Ray& ray) const {
     const auto found = locate(ray);
-    if (!found)
-        return std::nullopt;
+    if (!found) return std::nullopt;
     SurfaceHit hit{surfaceAt(found->location, ray.direction), found->distance};
     refine(ray, *state->lookups[found->location.mesh].mesh, hit);
     return hit;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
-    if (state->observer)
-        state->observer(ray, true);
+    if (state->observer) state->observer(ray, true);
     RTCRay query = toEmbree(ray);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -278,12 +260,10 @@ SurfacePoint EmbreeScene::surfaceAt(const SurfaceLocation& at, glm::vec3 viewDir
 
     const glm::vec2 coordinate = textureCoordinate(mesh, at);
     point.albedo = glm::vec3(material.baseColor);
-    if (lookup.color)
-        point.albedo *= glm::vec3(sampleTexture(*lookup.color, coordinate));
+    if (lookup.color) point.albedo *= glm::vec3(sampleTexture(*lookup.color, coordinate));
     if (state->scene->emissiveMaterialsLight && material.emission != glm::vec3(0.0f)) {
         point.emission = material.emission;
-        if (lookup.emission)
-            point.emission *= glm::vec3(sampleTexture(*lookup.emission, coordinate));
+        if (lookup.emission) point.emission *= glm::vec3(sampleTexture(*lookup.emission, coordinate));
     }
     return point;
 }
@@ -297,16 +277,10 @@ const Material& EmbreeScene::materialAt(const SurfaceLocation& at) const {
     return *state->lookups[at.mesh].material;
 }
 
-bool EmbreeScene::isHole(const SurfaceLocation& at) const {
-    return state->lookups[at.mesh].isHole(at);
-}
+bool EmbreeScene::isHole(const SurfaceLocation& at) const { return state->lookups[at.mesh].isHole(at); }
 
-const Scene& EmbreeScene::scene() const {
-    return *state->scene;
-}
+const Scene& EmbreeScene::scene() const { return *state->scene; }
 
-void EmbreeScene::observeRays(RayObserver observer) {
-    state->observer = std::move(observer);
-}
+void EmbreeScene::observeRays(RayObserver observer) { state->observer = std::move(observer); }
 
 } // namespace rebound::lab

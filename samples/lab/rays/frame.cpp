@@ -30,8 +30,7 @@ Result<> checkImage(const Frame& frame, const char* name, const Image& image, in
 } // namespace
 
 Image outgoingRadiance(const Frame& frame) {
-    if (!validate(frame))
-        return {};
+    if (!validate(frame)) return {};
     Image radiance = frame.emission.empty() ? Image(frame.direct.extent(), 3) : frame.emission;
     for (size_t i = 0; i < radiance.data.size(); ++i)
         radiance.data[i] += frame.albedo.data[i] * frame.direct.data[i];
@@ -39,14 +38,10 @@ Image outgoingRadiance(const Frame& frame) {
 }
 
 Result<> validate(const Frame& frame) {
-    if (auto checked = checkImage(frame, "depth", frame.depth, 1); !checked)
-        return checked;
-    if (auto checked = checkImage(frame, "normal", frame.normal, 3); !checked)
-        return checked;
-    if (auto checked = checkImage(frame, "albedo", frame.albedo, 3); !checked)
-        return checked;
-    if (auto checked = checkImage(frame, "direct", frame.direct, 3); !checked)
-        return checked;
+    if (auto checked = checkImage(frame, "depth", frame.depth, 1); !checked) return checked;
+    if (auto checked = checkImage(frame, "normal", frame.normal, 3); !checked) return checked;
+    if (auto checked = checkImage(frame, "albedo", frame.albedo, 3); !checked) return checked;
+    if (auto checked = checkImage(frame, "direct", frame.direct, 3); !checked) return checked;
     return frame.emission.empty() ? Result<>() : checkImage(frame, "emission", frame.emission, 3);
 }
 

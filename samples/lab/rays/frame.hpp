@@ -25,8 +25,9 @@ using Progress = std::function<void(double)>;
 
 struct FrameOptions {
     Extent2D extent{1280, 720};
-    int lightSamples = 16;      // shadow rays a pixel for each area light, for all emissive surfaces, and for the environment
-    int threads = 0;            // 0: one a core
+    int lightSamples =
+        16; // shadow rays a pixel for each area light, for all emissive surfaces, and for the environment
+    int threads = 0; // 0: one a core
     Progress progress = {};
 };
 

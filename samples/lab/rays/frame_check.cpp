@@ -54,8 +54,7 @@ Error wrongImage(const std::string& name, const Image& image, const WrongPixels&
 
 bool anyOf(const float* pixel, int channels, bool (*test)(float)) {
     for (int c = 0; c < channels; ++c)
-        if (test(pixel[c]))
-            return true;
+        if (test(pixel[c])) return true;
     return false;
 }
 
@@ -64,30 +63,24 @@ Result<> checkRange(const std::string& name, const Image& image) {
     const auto notFinite = findWrong(image, [&](int, int, const float* pixel) {
         return anyOf(pixel, channels, [](float value) { return !std::isfinite(value); });
     });
-    if (notFinite.count > 0)
-        return wrongImage(name, image, notFinite, "not finite");
+    if (notFinite.count > 0) return wrongImage(name, image, notFinite, "not finite");
     const auto negative = findWrong(image, [&](int, int, const float* pixel) {
         return anyOf(pixel, channels, [](float value) { return value < 0.0f; });
     });
-    if (negative.count > 0)
-        return wrongImage(name, image, negative, "negative");
+    if (negative.count > 0) return wrongImage(name, image, negative, "negative");
     return {};
 }
 
 Result<> checkAlbedo(const std::string& name, const Image& image) {
-    if (auto inRange = checkRange(name, image); !inRange)
-        return inRange;
+    if (auto inRange = checkRange(name, image); !inRange) return inRange;
     const auto above = findWrong(image, [](int, int, const float* pixel) {
         return anyOf(pixel, 3, [](float value) { return value > 1.0f + albedoTolerance; });
     });
-    if (above.count > 0)
-        return wrongImage(name, image, above, "above 1");
+    if (above.count > 0) return wrongImage(name, image, above, "above 1");
     return {};
 }
 
-float lengthOf(const float* n) {
-    return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-}
+float lengthOf(const float* n) { return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]); }
 
 Result<> checkNormals(const std::string& name, const Image& image, const Image& depth) {
     const auto findLengths = [&](auto isWrong) {
@@ -109,16 +102,11 @@ Result<> checkNormals(const std::string& name, const Image& image, const Image& 
 } // namespace
 
 Result<> checkFrame(const Frame& frame, const std::function<std::string(const char*)>& nameOfImage) {
-    if (auto complete = validate(frame); !complete)
-        return complete;
-    if (auto depth = checkRange(nameOfImage("depth"), frame.depth); !depth)
-        return depth;
-    if (auto normal = checkNormals(nameOfImage("normal"), frame.normal, frame.depth); !normal)
-        return normal;
-    if (auto albedo = checkAlbedo(nameOfImage("albedo"), frame.albedo); !albedo)
-        return albedo;
-    if (auto direct = checkRange(nameOfImage("direct"), frame.direct); !direct)
-        return direct;
+    if (auto complete = validate(frame); !complete) return complete;
+    if (auto depth = checkRange(nameOfImage("depth"), frame.depth); !depth) return depth;
+    if (auto normal = checkNormals(nameOfImage("normal"), frame.normal, frame.depth); !normal) return normal;
+    if (auto albedo = checkAlbedo(nameOfImage("albedo"), frame.albedo); !albedo) return albedo;
+    if (auto direct = checkRange(nameOfImage("direct"), frame.direct); !direct) return direct;
     return frame.emission.empty() ? Result<>() : checkRange(nameOfImage("emission"), frame.emission);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/camera_json.hpp"
 #include "lab/files/file_bytes.hpp"
-#include "lab/rays/frame.hpp"
-#include "lab/images/image_files.hpp"
 #include "lab/files/input_error.hpp"
 #include "lab/files/json_text.hpp"
+#include "lab/images/image_files.hpp"
+#include "lab/rays/frame.hpp"
+#include "lab/scenes/camera_json.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <nlohmann/json.hpp>
@@ -32,16 +32,14 @@ Image toThreeChannels(const Image& image) {
 
 Result<> readColor(const fs::path& file, Image& output) {
     auto image = readExr(file);
-    if (!image)
-        return image.error();
+    if (!image) return image.error();
     output = image->channels == 3 ? *std::move(image) : toThreeChannels(*image);
     return {};
 }
 
 Result<> readDepth(const fs::path& file, Image& output) {
     auto image = readExr(file);
-    if (!image)
-        return image.error();
+    if (!image) return image.error();
     if (image->channels != 1)
         return Error{ErrorCode::invalidData, file.string() + " has " + std::to_string(image->channels) +
                                                  " channels; expected depth in one channel, Y"};
@@ -52,21 +50,19 @@ Result<> readDepth(const fs::path& file, Image& output) {
 Result<CameraView> readMetaCamera(const fs::path& file) {
     const auto meta = guardInput(file, [&] {
         const std::vector<uint8_t> bytes = readFileBytes(file, largestMetaFile, file);
-        auto root = parseJsonObject({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "a frame's description");
-        if (!root.contains("camera"))
-            refuse("\"camera\" is missing");
+        auto root = parseJsonObject({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                                    "a frame's description");
+        if (!root.contains("camera")) refuse("\"camera\" is missing");
         return root;
     });
-    if (!meta)
-        return meta.error();
+    if (!meta) return meta.error();
     return cameraFromJson((*meta)["camera"], file.string() + ": camera");
 }
 
 Result<CameraView> readCamera(const fs::path& folder, const fs::path& viewFile, const std::string& name) {
     if (!viewFile.empty()) {
         Scene onlyCameras;
-        if (auto applied = applyViewFile(viewFile, onlyCameras); !applied)
-            return applied.error();
+        if (auto applied = applyViewFile(viewFile, onlyCameras); !applied) return applied.error();
         return findCamera(onlyCameras, name);
     }
     auto camera = readMetaCamera(folder / "meta.json");
@@ -79,21 +75,15 @@ Result<CameraView> readCamera(const fs::path& folder, const fs::path& viewFile, 
 Result<Frame> readParts(const fs::path& folder, const fs::path& viewFile, const std::string& cameraName) {
     Frame frame;
     auto camera = readCamera(folder, viewFile, cameraName);
-    if (!camera)
-        return camera.error();
+    if (!camera) return camera.error();
     frame.camera = *camera;
-    if (auto read = readDepth(folder / "depth.exr", frame.depth); !read)
-        return read.error();
-    if (auto read = readColor(folder / "normal.exr", frame.normal); !read)
-        return read.error();
-    if (auto read = readColor(folder / "albedo.exr", frame.albedo); !read)
-        return read.error();
-    if (auto read = readColor(folder / "direct.exr", frame.direct); !read)
-        return read.error();
+    if (auto read = readDepth(folder / "depth.exr", frame.depth); !read) return read.error();
+    if (auto read = readColor(folder / "normal.exr", frame.normal); !read) return read.error();
+    if (auto read = readColor(folder / "albedo.exr", frame.albedo); !read) return read.error();
+    if (auto read = readColor(folder / "direct.exr", frame.direct); !read) return read.error();
     std::error_code ignored;
     if (fs::exists(folder / "emission.exr", ignored))
-        if (auto read = readColor(folder / "emission.exr", frame.emission); !read)
-            return read.error();
+        if (auto read = readColor(folder / "emission.exr", frame.emission); !read) return read.error();
     if (auto valid = validate(frame); !valid)
         return Error{valid.error().code, folder.string() + ": " + valid.error().message};
     return frame;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/rays/frame.hpp"
 
-#include "lab/rays/camera_rays.hpp"
 #include "lab/light/direct_light.hpp"
-#include "lab/rays/embree_scene.hpp"
 #include "lab/light/low_discrepancy.hpp"
+#include "lab/rays/camera_rays.hpp"
+#include "lab/rays/embree_scene.hpp"
 #include "lab/rays/parallel_rows.hpp"
 
 #include <algorithm>
@@ -27,8 +27,7 @@ Error outOfRange(const char* option, int value, int least, int most) {
 Result<> validate(const FrameOptions& options) {
     for (const auto& [name, size] :
          {std::pair{"extent.width", options.extent.width}, std::pair{"extent.height", options.extent.height}})
-        if (size < 1 || size > maximumExtent)
-            return outOfRange(name, size, 1, maximumExtent);
+        if (size < 1 || size > maximumExtent) return outOfRange(name, size, 1, maximumExtent);
     if (options.lightSamples < 1 || options.lightSamples > mostLightSamples)
         return outOfRange("lightSamples", options.lightSamples, 1, mostLightSamples);
     if (options.threads < 0 || options.threads > mostThreads)
@@ -53,8 +52,7 @@ public:
         frame.normal = Image(options.extent, 3);
         frame.albedo = Image(options.extent, 3);
         frame.direct = Image(options.extent, 3);
-        if (anyEmission())
-            frame.emission = Image(options.extent, 3);
+        if (anyEmission()) frame.emission = Image(options.extent, 3);
     }
 
     Frame render() {
@@ -80,8 +78,7 @@ private:
             // Along a direction that advances by 1 on the viewing axis, a ray's t is depth.
             const Ray ray{glm::vec3(through.origin), glm::vec3(through.direction), frame.camera.nearPlane,
                           frame.camera.farPlane};
-            if (const auto hit = scene.intersect(ray))
-                storeHit(x, y, *hit);
+            if (const auto hit = scene.intersect(ray)) storeHit(x, y, *hit);
         }
     }
 
@@ -91,8 +88,7 @@ private:
         store(frame.albedo, x, y, hit.point.albedo);
         const uint32_t seed = hashBits(uint32_t(x), uint32_t(y));
         store(frame.direct, x, y, light.irradiance(hit.point, seed) / std::numbers::pi_v<float>);
-        if (!frame.emission.empty())
-            store(frame.emission, x, y, hit.point.emission);
+        if (!frame.emission.empty()) store(frame.emission, x, y, hit.point.emission);
     }
 
     const EmbreeScene& scene;
@@ -105,13 +101,10 @@ private:
 } // namespace
 
 Result<Frame> renderFrame(const Scene& scene, const CameraView& camera, const FrameOptions& options) {
-    if (auto valid = validate(options); !valid)
-        return valid.error();
-    if (auto valid = validate(camera); !valid)
-        return valid.error();
+    if (auto valid = validate(options); !valid) return valid.error();
+    if (auto valid = validate(camera); !valid) return valid.error();
     auto embreeScene = EmbreeScene::build(scene);
-    if (!embreeScene)
-        return embreeScene.error();
+    if (!embreeScene) return embreeScene.error();
     try {
         return FrameRenderer(*embreeScene, camera, options).render();
     } catch (const std::bad_alloc&) {

@@ -27,22 +27,19 @@ public:
         } catch (...) {
             const std::scoped_lock lock(mutex);
             next = rows;
-            if (!failure)
-                failure = std::current_exception();
+            if (!failure) failure = std::current_exception();
         }
     }
 
     void rethrow() const {
-        if (failure)
-            std::rethrow_exception(failure);
+        if (failure) std::rethrow_exception(failure);
     }
 
 private:
     void report() {
         const std::scoped_lock lock(mutex);
         ++done;
-        if (progress)
-            progress(double(done) / double(rows));
+        if (progress) progress(double(done) / double(rows));
     }
 
     int rows;

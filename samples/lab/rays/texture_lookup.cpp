@@ -24,8 +24,7 @@ const std::array<float, 256>& srgbTable() {
 }
 
 int wrapped(int texel, int size, Wrap wrap) {
-    if (wrap == Wrap::clamp)
-        return std::clamp(texel, 0, size - 1);
+    if (wrap == Wrap::clamp) return std::clamp(texel, 0, size - 1);
     const int period = wrap == Wrap::mirror ? 2 * size : size;
     const int phase = (texel % period + period) % period;
     return phase < size ? phase : period - 1 - phase;
@@ -75,8 +74,7 @@ float sampleOpacity(const Texture& texture, glm::vec2 coordinate) {
 glm::vec3 largestColor(const Texture& texture) {
     std::array<uint8_t, 3> largest{};
     for (size_t i = 0; i + 3 < texture.rgba.size(); i += 4)
-        for (size_t c = 0; c < 3; ++c)
-            largest[c] = std::max(largest[c], texture.rgba[i + c]);
+        for (size_t c = 0; c < 3; ++c) largest[c] = std::max(largest[c], texture.rgba[i + c]);
     const auto& table = srgbTable();
     return {table[largest[0]], table[largest[1]], table[largest[2]]};
 }

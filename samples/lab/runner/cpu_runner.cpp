@@ -8,11 +8,13 @@ namespace {
 class CpuPlan : public PreparedPlan {
 public:
     static Result<std::unique_ptr<PreparedPlan>> create(const cpu::Device& device, const Plan& plan,
-                                                        const PlanInputs& inputs, const PrepareOptions& options) {
+                                                        const PlanInputs& inputs,
+                                                        const PrepareOptions& options) {
         auto program = device.compile(plan);
         if (!program) return program.error();
         auto prepared = std::unique_ptr<CpuPlan>(new CpuPlan(*std::move(program)));
-        const auto scalar = options.precision == Precision::half ? cpu::Scalar::float16 : cpu::Scalar::float32;
+        const auto scalar =
+            options.precision == Precision::half ? cpu::Scalar::float16 : cpu::Scalar::float32;
         prepared->images.resize(plan.resources.size());
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = prepared->program.plan().resources[i]; // which names are views of

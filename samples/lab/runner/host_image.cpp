@@ -30,7 +30,8 @@ void HostImage::assign(const lab::Image& image) {
         for (size_t pixel = 0; pixel < pixelCount(extent); ++pixel, next += sizeOf(scalar)) {
             const float value = image.data[pixel * size_t(channels) + c];
             const uint16_t half = halfOf(value);
-            std::memcpy(next, scalar == cpu::Scalar::float32 ? static_cast<const void*>(&value) : &half, sizeOf(scalar));
+            std::memcpy(next, scalar == cpu::Scalar::float32 ? static_cast<const void*>(&value) : &half,
+                        sizeOf(scalar));
         }
 }
 

@@ -25,8 +25,8 @@ inline Result<ResourceIndex> findOutput(const Plan& plan, const std::string& nam
 // PreparedPlan::inspect() where a pass is done when onPass() is called.
 //   contents(ResourceIndex) -> Result<lab::Image>, replace(ResourceIndex, const lab::Image&) -> Result<>
 template <class Program, class Frame, class Contents, class Replace>
-Result<Record> inspectPasses(Program& program, const Frame& frame, const Record* replacement, Contents contents,
-                             Replace replace) {
+Result<Record> inspectPasses(Program& program, const Frame& frame, const Record* replacement,
+                             Contents contents, Replace replace) {
     const Plan& plan = program.plan();
     Record record(plan.passes.size());
     const auto inspectPass = [&](size_t pass) -> Result<> {

@@ -2,8 +2,8 @@
 #include "lab/host/gl_functions.hpp"
 #include "lab/host/opengl_context.hpp"
 #include "lab/host/opengl_texture.hpp"
-#include "rebound/opengl/device.hpp"
 #include "lab/runner/inspection.hpp"
+#include "rebound/opengl/device.hpp"
 
 namespace rebound::runner {
 namespace {

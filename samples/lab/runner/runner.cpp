@@ -29,16 +29,18 @@ Result<std::unique_ptr<Backend>> createBackend(const BackendChoice& choice) {
 #endif
     std::string known;
     for (const std::string& name : backendNames()) known += (known.empty() ? "" : ", ") + name;
-    return Error{ErrorCode::notFound, "backend is \"" + choice.backend + "\"; one of " + known + " was expected"};
+    return Error{ErrorCode::notFound,
+                 "backend is \"" + choice.backend + "\"; one of " + known + " was expected"};
 }
 
 Result<const lab::Image*> findPicture(const Plan& plan, const PlanInputs& inputs, const Resource& r) {
     for (const NamedImage<lab::Image>& picture : inputs.images) {
         if (picture.name != r.name) continue;
         if (picture.image.extent() != r.extent)
-            return invalidArgument("inputs: " + r.name + " has " + std::to_string(picture.image.width) + " x " +
-                                   std::to_string(picture.image.height) + " pixels; " + std::to_string(r.extent.width) +
-                                   " x " + std::to_string(r.extent.height) + " were expected");
+            return invalidArgument("inputs: " + r.name + " has " + std::to_string(picture.image.width) +
+                                   " x " + std::to_string(picture.image.height) + " pixels; " +
+                                   std::to_string(r.extent.width) + " x " + std::to_string(r.extent.height) +
+                                   " were expected");
         return &picture.image;
     }
     return invalidArgument("inputs: the plan " + plan.technique + " needs " + r.name);

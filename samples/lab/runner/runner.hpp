@@ -69,7 +69,8 @@ public:
 
     virtual BackendInfo info() const = 0;
     virtual Result<MemoryUse> memoryUse(const Plan&) const = 0;
-    virtual Result<std::unique_ptr<PreparedPlan>> prepare(const Plan&, const PlanInputs&, const PrepareOptions&) = 0;
+    virtual Result<std::unique_ptr<PreparedPlan>> prepare(const Plan&, const PlanInputs&,
+                                                          const PrepareOptions&) = 0;
     // What a driver's checks have complained about since they were last asked; asked for with BackendChoice::validation.
     virtual std::vector<std::string> complaints() { return {}; }
 };
@@ -78,8 +79,8 @@ struct BackendChoice {
     std::string backend = "cpu"; // one of backendNames()
     std::string device;          // of vulkan and opengl: part of its name; empty: the backend's first
     cpu::Isa isa = cpu::Isa::automatic;
-    int threads = 0;             // of the CPU; 0: one a core
-    bool validation = false;     // of vulkan: its validation layers; of opengl: debug output
+    int threads = 0;         // of the CPU; 0: one a core
+    bool validation = false; // of vulkan: its validation layers; of opengl: debug output
 };
 
 // Those that are built in: cpu, and vulkan and opengl where they are.

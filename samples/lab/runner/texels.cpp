@@ -26,7 +26,8 @@ std::vector<std::byte> texelsOf(const lab::Image& image, Format format) {
     std::byte* next = bytes.data();
     for (size_t pixel = 0; pixel < pixels; ++pixel)
         for (size_t c = 0; c < channels; ++c) {
-            const float value = c < size_t(image.channels) ? image.data[pixel * size_t(image.channels) + c] : 0.0f;
+            const float value =
+                c < size_t(image.channels) ? image.data[pixel * size_t(image.channels) + c] : 0.0f;
             const uint16_t half = halfOf(value);
             const size_t size = format == Format::rgba16f ? sizeof half : sizeof value;
             std::memcpy(next, format == Format::rgba16f ? static_cast<const void*>(&half) : &value, size);

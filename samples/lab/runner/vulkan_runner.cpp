@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/host/vulkan_image.hpp"
-#include "rebound/vulkan/device.hpp"
 #include "lab/runner/inspection.hpp"
+#include "rebound/vulkan/device.hpp"
 
 #include <cstring>
 
@@ -17,7 +17,8 @@ constexpr VkMemoryPropertyFlags hostMemory =
 
 Result<std::unique_ptr<VulkanBuffer>> stagingBuffer(const VulkanContext& context, size_t size) {
     return VulkanBuffer::create(context, std::max<size_t>(size, 4),
-                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, hostMemory);
+                                VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                hostMemory);
 }
 
 class VulkanPlan : public PreparedPlan {
@@ -32,12 +33,14 @@ public:
             if (r.kind != ResourceKind::input && r.kind != ResourceKind::output) continue;
             const Format format = r.kind == ResourceKind::input ? inputFormat(r, precision) : r.format;
             constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+                                                VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
             auto image = VulkanImage::create(context, r.extent, vulkan::vulkanFormat(format), usage);
             if (!image) return image.error();
             images[i] = *std::move(image);
             if (auto filled = fill(inputs, i, format); !filled) return filled;
-            frame.images.push_back({r.name, {images[i]->view, r.extent, images[i]->format, VK_IMAGE_LAYOUT_GENERAL}});
+            frame.images.push_back(
+                {r.name, {images[i]->view, r.extent, images[i]->format, VK_IMAGE_LAYOUT_GENERAL}});
         }
         frame.constants = inputs.constants;
         return {};
@@ -107,7 +110,8 @@ public:
             }
             host::recordFullBarrier(commands);
         });
-        const auto done = context.run([&](VkCommandBuffer commands) { return program.record(commands, 0, frame); });
+        const auto done =
+            context.run([&](VkCommandBuffer commands) { return program.record(commands, 0, frame); });
         program.onPass({});
         if (!done) return done.error();
         Record record(plan.passes.size());
@@ -136,7 +140,8 @@ private:
         return program.transientImage(program.plan().resources[size_t(index)].name);
     }
 
-    void writeReplacement(const Record& replacement, const std::vector<Copy>& copies, VulkanBuffer& in) const {
+    void writeReplacement(const Record& replacement, const std::vector<Copy>& copies,
+                          VulkanBuffer& in) const {
         size_t index = 0;
         for (size_t i = 0; i < copies.size(); ++i) {
             index = i > 0 && copies[i].pass == copies[i - 1].pass ? index + 1 : 0;
@@ -149,7 +154,8 @@ private:
     // An input's contents, or zeros.
     Result<> fill(const PlanInputs& inputs, size_t index, Format format) {
         const Resource& r = program.plan().resources[index];
-        std::vector<std::byte> texels(bytesPerTexel(format) * size_t(r.extent.width) * size_t(r.extent.height));
+        std::vector<std::byte> texels(bytesPerTexel(format) * size_t(r.extent.width) *
+                                      size_t(r.extent.height));
         if (r.kind == ResourceKind::input) {
             auto picture = findPicture(program.plan(), inputs, r);
             if (!picture) return picture.error();
@@ -159,7 +165,8 @@ private:
         if (!staging) return staging.error();
         std::memcpy((*staging)->mapped, texels.data(), texels.size());
         return context.run([&](VkCommandBuffer commands) -> Result<> {
-            host::recordTransition(commands, images[index]->image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            host::recordTransition(commands, images[index]->image, VK_IMAGE_LAYOUT_UNDEFINED,
+                                   VK_IMAGE_LAYOUT_GENERAL);
             host::recordUpload(commands, (*staging)->buffer, 0, images[index]->image, r.extent);
             host::recordFullBarrier(commands);
             return {};
@@ -179,7 +186,9 @@ public:
     VulkanBackend(VulkanContext c, vulkan::Device d) : context(std::move(c)), device(std::move(d)) {}
 
     BackendInfo info() const override { return {"vulkan", context.deviceName(), "", 0}; }
-    Result<MemoryUse> memoryUse(const Plan& plan) const override { return device.memoryUse(plan, {1, nullptr, false}); }
+    Result<MemoryUse> memoryUse(const Plan& plan) const override {
+        return device.memoryUse(plan, {1, nullptr, false});
+    }
     std::vector<std::string> complaints() override { return context.messages(); }
 
     Result<std::unique_ptr<PreparedPlan>> prepare(const Plan& plan, const PlanInputs& inputs,

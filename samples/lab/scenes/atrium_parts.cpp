@@ -15,8 +15,7 @@ using Profile = std::vector<glm::vec2>; // radius, height
 
 Profile scaled(const Profile& profile, float radius, float height) {
     Profile result;
-    for (const glm::vec2& point : profile)
-        result.push_back(point * glm::vec2(radius, height));
+    for (const glm::vec2& point : profile) result.push_back(point * glm::vec2(radius, height));
     return result;
 }
 
@@ -37,8 +36,7 @@ void addArch(MeshBuilder& mesh, const WallPlane& plane, const Arch& arch) {
     };
     // The lower edge from end to end; above each of its parts is a block.
     std::vector<glm::vec2> edge = {{arch.begin, arch.spring}};
-    for (int i = 0; i <= segments; ++i)
-        edge.push_back(under(static_cast<float>(i) / segments));
+    for (int i = 0; i <= segments; ++i) edge.push_back(under(static_cast<float>(i) / segments));
     edge.emplace_back(arch.end, arch.spring);
     const auto at = [&](const glm::vec2& p, float t) { return plane.at(p.x, p.y, t); };
     const auto quad = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
@@ -49,8 +47,7 @@ void addArch(MeshBuilder& mesh, const WallPlane& plane, const Arch& arch) {
         quad(at(p, half), at(q, half), at(next, half), at(above, half));
         quad(at(q, -half), at(p, -half), at(above, -half), at(next, -half));
         quad(at(above, half), at(next, half), at(next, -half), at(above, -half));
-        if (i == 0 || i + 2 == edge.size())
-            quad(at(p, -half), at(q, -half), at(q, half), at(p, half));
+        if (i == 0 || i + 2 == edge.size()) quad(at(p, -half), at(q, -half), at(q, half), at(p, half));
     }
     const auto vault = [&](float u, float v) {
         const glm::vec2 p = under(u);
@@ -196,8 +193,7 @@ void addPlant(MeshBuilder& mesh, const glm::vec3& foot, float height, int leaves
         mesh.face(std::array<glm::vec3, 3>{previous[0], previous[1], previous[2]});
         for (int part = 1; part <= parts; ++part) {
             const std::array<glm::vec3, 3> next = ring(part);
-            for (size_t i = 0; i < 3; ++i)
-                quad(previous, next, i);
+            for (size_t i = 0; i < 3; ++i) quad(previous, next, i);
             previous = next;
         }
         mesh.face(std::array<glm::vec3, 3>{previous[2], previous[1], previous[0]});

@@ -281,12 +281,10 @@ Scene makeAtrium() {
     addShell(atrium);
     addCornices(atrium);
     for (const Storey& storey : {ground, gallery}) {
-        for (const Side& side : sides())
-            addArcade(atrium, side, storey);
+        for (const Side& side : sides()) addArcade(atrium, side, storey);
         addCornerPiers(atrium, storey);
     }
-    for (const Side& side : sides())
-        addBalustrades(atrium, side);
+    for (const Side& side : sides()) addBalustrades(atrium, side);
     int seed = 0;
     for (const Side& side : sides())
         if (side.bays == longBays) {
@@ -300,8 +298,7 @@ Scene makeAtrium() {
     Scene scene;
     scene.name = "atrium";
     addMaterials(scene);
-    for (MeshBuilder& mesh : atrium.meshes)
-        scene.meshes.push_back(mesh.take());
+    for (MeshBuilder& mesh : atrium.meshes) scene.meshes.push_back(mesh.take());
     scene.lights = {makeSun()};
     scene.environment = {0.55f, 0.75f, 1.1f};
     scene.cameras = {makeCamera("nave", {-10.2f, 1.8f, -0.5f}, {6.0f, 3.6f, 0.3f}),

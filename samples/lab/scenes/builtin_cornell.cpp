@@ -26,9 +26,7 @@ int addMaterial(Scene& scene, const char* name, const glm::vec3& reflectance) {
 }
 
 // From the published coordinates in millimetres, whose x runs to the left and whose z runs into the picture.
-glm::vec2 fromPublished(float x, float z) {
-    return {halfWidth - x / 100.0f, halfDepth - z / 100.0f};
-}
+glm::vec2 fromPublished(float x, float z) { return {halfWidth - x / 100.0f, halfDepth - z / 100.0f}; }
 
 Mesh makeBlock(const char* name, int material, std::array<glm::vec2, 4> outline, float top) {
     MeshBuilder block(name, material);

@@ -72,8 +72,7 @@ inline glm::mat4 viewOf(const GBufferConventions& c, const glm::mat4& rightHande
 
 // Stored depth of a surface at a distance along the viewing axis.
 inline float storedDepth(const GBufferConventions& c, const Lens& lens, double distance) {
-    if (c.depthEncoding == DepthEncoding::planar)
-        return float(distance);
+    if (c.depthEncoding == DepthEncoding::planar) return float(distance);
     const DepthLine line = depthLine(c, lens);
     const double ndc = c.projection == Projection::perspective ? (line.a * distance + line.b) / distance
                                                                : line.a * distance + line.b;
@@ -102,10 +101,8 @@ inline std::vector<GBufferConventions> everyConvention() {
         c.normalSpace = NormalSpace(bit(7));
         c.normalEncoding = NormalEncoding(bit(8));
         const bool planar = c.depthEncoding == DepthEncoding::planar;
-        if (planar && (bit(1) || bit(2) || bit(3)))
-            continue;
-        if (c.projection == Projection::orthographic && c.farPlane == FarPlane::infinite)
-            continue;
+        if (planar && (bit(1) || bit(2) || bit(3))) continue;
+        if (c.projection == Projection::orthographic && c.farPlane == FarPlane::infinite) continue;
         all.push_back(c);
     }
     return all;

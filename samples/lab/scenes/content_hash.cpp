@@ -12,16 +12,12 @@ struct ContentHash::State {
     XXH3_state_t hash;
 };
 
-ContentHash::ContentHash() : state(std::make_unique<State>()) {
-    XXH3_128bits_reset(&state->hash);
-}
+ContentHash::ContentHash() : state(std::make_unique<State>()) { XXH3_128bits_reset(&state->hash); }
 ContentHash::ContentHash(ContentHash&&) noexcept = default;
 ContentHash& ContentHash::operator=(ContentHash&&) noexcept = default;
 ContentHash::~ContentHash() = default;
 
-void ContentHash::addBytes(const void* bytes, size_t size) {
-    XXH3_128bits_update(&state->hash, bytes, size);
-}
+void ContentHash::addBytes(const void* bytes, size_t size) { XXH3_128bits_update(&state->hash, bytes, size); }
 
 std::string ContentHash::digits() const {
     const XXH128_hash_t hash = XXH3_128bits_digest(&state->hash);

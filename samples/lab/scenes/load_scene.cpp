@@ -13,10 +13,8 @@ namespace {
 constexpr std::string_view builtinPrefix = "builtin:";
 
 Scene makeBuiltin(const std::string& name) {
-    if (name == "atrium")
-        return makeAtrium();
-    if (name == "cornell")
-        return makeCornellBox();
+    if (name == "atrium") return makeAtrium();
+    if (name == "cornell") return makeCornellBox();
     refuse("there is no built-in scene '" + std::string(builtinPrefix) + name +
                "'; there are 'builtin:atrium' and 'builtin:cornell'",
            ErrorCode::notFound);
@@ -24,8 +22,7 @@ Scene makeBuiltin(const std::string& name) {
 
 template <class T>
 T orRefuse(Result<T> result) {
-    if (!result)
-        throw InputError(result.error());
+    if (!result) throw InputError(result.error());
     return std::move(*result);
 }
 
@@ -71,8 +68,7 @@ bool isLit(const Scene& scene) {
 // A view file's moment, changed as asked.
 GltfOptions momentOf(GltfOptions options, const SceneMoment& moment) {
     // Another clip's time means nothing to this one.
-    if (moment.animation && *moment.animation != options.animation)
-        options.time = 0.0f;
+    if (moment.animation && *moment.animation != options.animation) options.time = 0.0f;
     options.animation = moment.animation.value_or(options.animation);
     options.time = moment.time.value_or(options.time);
     options.animate = options.animate || moment.animation || moment.time;
@@ -85,16 +81,14 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile, 
             refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
                    ErrorCode::invalidArgument);
         Scene scene = makeBuiltin(name.substr(builtinPrefix.size()));
-        if (!viewFile.empty())
-            orRefuse(applyViewFile(viewFile, scene));
+        if (!viewFile.empty()) orRefuse(applyViewFile(viewFile, scene));
         return scene;
     }
     const std::filesystem::path file(name);
     const std::filesystem::path view = viewFile.empty() ? viewFileBeside(file) : viewFile;
     const GltfOptions stored = view.empty() ? GltfOptions{} : orRefuse(readViewAnimation(view));
     Scene scene = orRefuse(loadGltf(file, momentOf(stored, moment)));
-    if (!view.empty())
-        orRefuse(applyViewFile(view, scene));
+    if (!view.empty()) orRefuse(applyViewFile(view, scene));
     return scene;
 }
 
@@ -109,8 +103,7 @@ Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem:
         return failure.error();
     }
     const std::string subject = "'" + fileOrBuiltin + "': ";
-    if (scene.cameras.empty() && scene.triangleCount() > 0)
-        scene.cameras.push_back(cameraOnAll(scene));
+    if (scene.cameras.empty() && scene.triangleCount() > 0) scene.cameras.push_back(cameraOnAll(scene));
     if (const Result<> valid = validate(scene); !valid)
         return Error{valid.error().code, subject + valid.error().message};
     if (!isLit(scene))

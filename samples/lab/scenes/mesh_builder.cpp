@@ -14,8 +14,7 @@ namespace {
 // undistorted.
 glm::vec2 planar(const glm::vec3& position, const glm::vec3& normal) {
     const glm::vec3 n = glm::abs(normal);
-    if (n.y >= n.x && n.y >= n.z)
-        return {position.x, position.z};
+    if (n.y >= n.x && n.y >= n.z) return {position.x, position.z};
     return n.x > n.z ? glm::vec2(position.z, -position.y) : glm::vec2(position.x, -position.y);
 }
 
@@ -70,10 +69,8 @@ void MeshBuilder::triangle(uint32_t a, uint32_t b, uint32_t c) {
 void MeshBuilder::face(std::span<const glm::vec3> corners) {
     const glm::vec3 normal = polygonNormal(corners);
     const auto first = static_cast<uint32_t>(mesh.positions.size());
-    for (const glm::vec3& corner : corners)
-        vertex(corner, normal, repeats * planar(corner, normal));
-    for (uint32_t i = 1; i + 1 < corners.size(); ++i)
-        triangle(first, first + i, first + i + 1);
+    for (const glm::vec3& corner : corners) vertex(corner, normal, repeats * planar(corner, normal));
+    for (uint32_t i = 1; i + 1 < corners.size(); ++i) triangle(first, first + i, first + i + 1);
 }
 
 void MeshBuilder::box(const glm::vec3& low, const glm::vec3& high) {
@@ -104,8 +101,7 @@ void MeshBuilder::revolve(std::span<const glm::vec2> profile, const glm::vec3& c
         return glm::vec3(point.x * std::cos(angle), point.y, -point.x * std::sin(angle));
     };
     float widest = 0.0f;
-    for (const glm::vec2& point : profile)
-        widest = std::max(widest, point.x);
+    for (const glm::vec2& point : profile) widest = std::max(widest, point.x);
     // A whole number, so that the texture meets itself.
     const float turns = std::max(1.0f, std::round(2.0f * std::numbers::pi_v<float> * widest * repeats));
     float length = 0.0f;
@@ -124,10 +120,8 @@ void MeshBuilder::revolve(std::span<const glm::vec2> profile, const glm::vec3& c
         }
         for (uint32_t i = 0; i < static_cast<uint32_t>(segments); ++i) {
             const uint32_t at = first + 2 * i; // begin, end, next begin, next end
-            if (band.begin.x > 0.0f)
-                triangle(at, at + 2, at + 1);
-            if (band.end.x > 0.0f)
-                triangle(at + 2, at + 3, at + 1);
+            if (band.begin.x > 0.0f) triangle(at, at + 2, at + 1);
+            if (band.end.x > 0.0f) triangle(at + 2, at + 3, at + 1);
         }
         length = nextLength;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scenes/scene.hpp"
 
-#include "lab/rays/camera_rays.hpp"
 #include "lab/files/input_error.hpp"
+#include "lab/rays/camera_rays.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,37 +18,27 @@ constexpr float largestCoordinate = 1e15f; // [m]
 // rounding.
 constexpr float unitTolerance = 1e-3f;
 
-bool isFinite(float value) {
-    return std::isfinite(value);
-}
+bool isFinite(float value) { return std::isfinite(value); }
 
 template <glm::length_t size>
 bool isFinite(const glm::vec<size, float>& v) {
     for (glm::length_t i = 0; i < size; ++i)
-        if (!std::isfinite(v[i]))
-            return false;
+        if (!std::isfinite(v[i])) return false;
     return true;
 }
 
-bool isUnit(const glm::vec3& v) {
-    return isFinite(v) && std::abs(glm::length(v) - 1.0f) <= unitTolerance;
-}
+bool isUnit(const glm::vec3& v) { return isFinite(v) && std::abs(glm::length(v) - 1.0f) <= unitTolerance; }
 
 bool isPlace(const glm::vec3& v) {
     return isFinite(v) && std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= largestCoordinate;
 }
 
-bool isLight(const glm::vec3& v) {
-    return isFinite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
-}
+bool isLight(const glm::vec3& v) { return isFinite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; }
 
-bool isShare(float value) {
-    return value >= 0.0f && value <= 1.0f;
-}
+bool isShare(float value) { return value >= 0.0f && value <= 1.0f; }
 
 void require(bool condition, const std::string& subject, const char* expectation) {
-    if (!condition)
-        refuse(subject + " " + expectation);
+    if (!condition) refuse(subject + " " + expectation);
 }
 
 template <class Item>
@@ -122,8 +112,7 @@ void checkLight(const Light& light, const std::string& subject) {
 }
 
 void checkCamera(const CameraView& camera) {
-    if (const Result<> valid = validate(camera); !valid)
-        refuse(valid.error().message);
+    if (const Result<> valid = validate(camera); !valid) refuse(valid.error().message);
 }
 
 void check(const Scene& scene) {
@@ -131,12 +120,9 @@ void check(const Scene& scene) {
         checkTexture(texture, naming("texture", scene.textures, texture));
     for (const Material& material : scene.materials)
         checkMaterial(material, scene.textures.size(), naming("material", scene.materials, material));
-    for (const Mesh& mesh : scene.meshes)
-        checkMesh(mesh, scene, naming("mesh", scene.meshes, mesh));
-    for (const Light& light : scene.lights)
-        checkLight(light, naming("light", scene.lights, light));
-    for (const CameraView& camera : scene.cameras)
-        checkCamera(camera);
+    for (const Mesh& mesh : scene.meshes) checkMesh(mesh, scene, naming("mesh", scene.meshes, mesh));
+    for (const Light& light : scene.lights) checkLight(light, naming("light", scene.lights, light));
+    for (const CameraView& camera : scene.cameras) checkCamera(camera);
     require(isLight(scene.environment), "the environment", "is negative or not finite");
     require(scene.triangleCount() > 0, "the scene", "has no triangles");
 }
@@ -145,8 +131,7 @@ void check(const Scene& scene) {
 
 size_t Scene::triangleCount() const {
     size_t count = 0;
-    for (const Mesh& mesh : meshes)
-        count += mesh.indices.size() / 3;
+    for (const Mesh& mesh : meshes) count += mesh.indices.size() / 3;
     return count;
 }
 
@@ -160,14 +145,11 @@ Result<> validate(const Scene& scene) {
 }
 
 Result<CameraView> findCamera(const Scene& scene, const std::string& name) {
-    if (scene.cameras.empty())
-        return Error{ErrorCode::notFound, "scene '" + scene.name + "' has no cameras"};
-    if (name.empty())
-        return scene.cameras.front();
+    if (scene.cameras.empty()) return Error{ErrorCode::notFound, "scene '" + scene.name + "' has no cameras"};
+    if (name.empty()) return scene.cameras.front();
     std::string known;
     for (const CameraView& camera : scene.cameras) {
-        if (camera.name == name)
-            return camera;
+        if (camera.name == name) return camera;
         known += (known.empty() ? "'" : ", '") + camera.name + "'";
     }
     return Error{ErrorCode::notFound,

@@ -30,11 +30,11 @@ inline constexpr int none = -1;
 // Lambertian and two-sided for the light that Rebound computes; metallic and roughness are kept for glossy paths.
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1.0f};           // times the texture: diffuse reflectance and opacity, each 0 to 1
-    int baseColorTexture = none;         // index into Scene::textures
-    glm::vec3 emission{0.0f};            // emissiveFactor * emissiveStrength: radiance [W m^-2 sr^-1]
+    glm::vec4 baseColor{1.0f};   // times the texture: diffuse reflectance and opacity, each 0 to 1
+    int baseColorTexture = none; // index into Scene::textures
+    glm::vec3 emission{0.0f};    // emissiveFactor * emissiveStrength: radiance [W m^-2 sr^-1]
     int emissionTexture = none;
-    bool alphaMasked = false;            // texels of opacity below alphaCutoff are holes, for light too
+    bool alphaMasked = false; // texels of opacity below alphaCutoff are holes, for light too
     float alphaCutoff = 0.5f;
     float metallic = 0.0f;
     float roughness = 1.0f;
@@ -43,11 +43,11 @@ struct Material {
 // Indexed triangles of one material, transformed to world space.
 struct Mesh {
     std::string name;
-    int material = 0;                    // index into Scene::materials
-    std::vector<glm::vec3> positions;    // [m]
-    std::vector<glm::vec3> normals;      // unit; generated where a file has none
+    int material = 0;                          // index into Scene::materials
+    std::vector<glm::vec3> positions;          // [m]
+    std::vector<glm::vec3> normals;            // unit; generated where a file has none
     std::vector<glm::vec2> textureCoordinates; // empty, or one a vertex
-    std::vector<uint32_t> indices;       // three a triangle
+    std::vector<uint32_t> indices;             // three a triangle
 };
 
 enum class LightType { directional, point, spot, area };
@@ -55,27 +55,28 @@ enum class LightType { directional, point, spot, area };
 struct Light {
     std::string name;
     LightType type = LightType::directional;
-    glm::vec3 position{0.0f};            // [m]; an area light's centre
-    glm::vec3 direction{0, -1, 0};       // unit: the way light travels, a spot's axis, an area light's normal
+    glm::vec3 position{0.0f};      // [m]; an area light's centre
+    glm::vec3 direction{0, -1, 0}; // unit: the way light travels, a spot's axis, an area light's normal
     // directional: irradiance on a plane that faces it [W m^-2]; point and spot: radiant intensity [W sr^-1];
     // area: radiance of its emitting side [W m^-2 sr^-1].
     glm::vec3 intensity{1.0f};
-    float innerCone = 0.0f;              // spot: half apex angle inside which light is full [rad]
-    float outerCone = 0.785398f;         // spot: half apex angle outside which there is none [rad]; equal: a hard edge
-    glm::vec3 right{1, 0, 0};            // area: unit, along the rectangle's first side
-    glm::vec2 size{1.0f};                // area: length along right, and along direction x right [m]
+    float innerCone = 0.0f; // spot: half apex angle inside which light is full [rad]
+    float outerCone =
+        0.785398f;            // spot: half apex angle outside which there is none [rad]; equal: a hard edge
+    glm::vec3 right{1, 0, 0}; // area: unit, along the rectangle's first side
+    glm::vec2 size{1.0f};     // area: length along right, and along direction x right [m]
 };
 
 struct CameraView {
     std::string name;
-    glm::vec3 position{0.0f};            // [m]
-    glm::vec3 target{0, 0, -1};          // [m]
+    glm::vec3 position{0.0f};   // [m]
+    glm::vec3 target{0, 0, -1}; // [m]
     glm::vec3 up{0, 1, 0};
     bool orthographic = false;
-    float verticalFieldOfView = 1.0f;    // full angle [rad]; perspective only
-    float orthographicHeight = 1.0f;     // full height of the view [m]; orthographic only
-    float nearPlane = 0.05f;             // [m]
-    float farPlane = 1000.0f;            // [m]
+    float verticalFieldOfView = 1.0f; // full angle [rad]; perspective only
+    float orthographicHeight = 1.0f;  // full height of the view [m]; orthographic only
+    float nearPlane = 0.05f;          // [m]
+    float farPlane = 1000.0f;         // [m]
 };
 
 struct Scene {
@@ -83,10 +84,11 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
-    std::vector<Light> lights;           // never seen by a camera
+    std::vector<Light> lights; // never seen by a camera
     std::vector<CameraView> cameras;
-    glm::vec3 environment{0.0f};         // constant radiance from everywhere outside [W m^-2 sr^-1]
-    bool emissiveMaterialsLight = true;  // whether emissive surfaces light the scene; false: emission is ignored
+    glm::vec3 environment{0.0f}; // constant radiance from everywhere outside [W m^-2 sr^-1]
+    bool emissiveMaterialsLight =
+        true; // whether emissive surfaces light the scene; false: emission is ignored
 
     size_t triangleCount() const;
 };

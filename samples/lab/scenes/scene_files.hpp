@@ -11,9 +11,9 @@
 namespace rebound::lab {
 
 struct GltfOptions {
-    std::string animation;               // a clip's name; empty: the first, if there is one
-    float time = 0.0f;                   // of that clip [s]; past its end it holds the last pose
-    bool animate = false;                // false: the file's rest pose
+    std::string animation; // a clip's name; empty: the first, if there is one
+    float time = 0.0f;     // of that clip [s]; past its end it holds the last pose
+    bool animate = false;  // false: the file's rest pose
 };
 
 // Reads .gltf or .glb (2.0): node transforms, base colour with textures and alpha mask, emission with

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scenes/scene_files.hpp"
 
-#include "lab/scenes/camera_json.hpp"
 #include "lab/files/file_bytes.hpp"
 #include "lab/files/input_error.hpp"
 #include "lab/files/json_text.hpp"
+#include "lab/scenes/camera_json.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -25,8 +25,7 @@ Json readJson(const std::filesystem::path& file) {
 
 const Json& member(const Json& object, const char* key, const std::string& subject) {
     const auto found = object.find(key);
-    if (found == object.end())
-        refuse(subject + " lacks the key '" + key + "'");
+    if (found == object.end()) refuse(subject + " lacks the key '" + key + "'");
     return *found;
 }
 
@@ -39,8 +38,7 @@ const Json& member(const Json& object, const char* key, const std::string& subje
 
 std::string text(const Json& object, const char* key, const std::string& subject) {
     const Json& value = member(object, key, subject);
-    if (!value.is_string())
-        refuseValue(subject, key, value, "a string");
+    if (!value.is_string()) refuseValue(subject, key, value, "a string");
     return value.get<std::string>();
 }
 
@@ -60,16 +58,14 @@ glm::vec<size, float> vector(const Json& object, const char* key, const std::str
     if (!value.is_array() || value.size() != size || !std::all_of(value.begin(), value.end(), isNumber))
         refuseValue(subject, key, value, std::to_string(size) + " finite numbers");
     glm::vec<size, float> result;
-    for (int i = 0; i < size; ++i)
-        result[i] = value[static_cast<size_t>(i)].get<float>();
+    for (int i = 0; i < size; ++i) result[i] = value[static_cast<size_t>(i)].get<float>();
     return result;
 }
 
 glm::vec3 unitVector(const Json& object, const char* key, const std::string& subject) {
     // In double, as squares of large floats overflow.
     const glm::dvec3 v(vector<3>(object, key, subject));
-    if (!(glm::length(v) > 0.0))
-        refuseValue(subject, key, object[key], "a direction, which has a length");
+    if (!(glm::length(v) > 0.0)) refuseValue(subject, key, object[key], "a direction, which has a length");
     return glm::vec3(glm::normalize(v));
 }
 
@@ -104,39 +100,29 @@ void readRectangle(const Json& object, const std::string& subject, Light& light)
 
 LightType lightTypeOf(const Json& object, const std::string& subject) {
     const std::string name = text(object, "type", subject);
-    if (name == "directional")
-        return LightType::directional;
-    if (name == "point")
-        return LightType::point;
-    if (name == "spot")
-        return LightType::spot;
-    if (name == "area")
-        return LightType::area;
+    if (name == "directional") return LightType::directional;
+    if (name == "point") return LightType::point;
+    if (name == "spot") return LightType::spot;
+    if (name == "area") return LightType::area;
     refuseValue(subject, "type", object["type"], "directional, point, spot or area");
 }
 
 Light readLight(const Json& object, const std::string& subject) {
-    if (!object.is_object())
-        refuse(subject + " is not an object");
+    if (!object.is_object()) refuse(subject + " is not an object");
     Light light;
     light.type = lightTypeOf(object, subject);
     light.name = text(object, object.contains("name") ? "name" : "type", subject);
     light.intensity = intensityOf(object, subject);
-    if (light.type != LightType::directional)
-        light.position = vector<3>(object, "position", subject);
-    if (light.type != LightType::point)
-        light.direction = unitVector(object, "direction", subject);
-    if (light.type == LightType::spot)
-        readCone(object, subject, light);
-    if (light.type == LightType::area)
-        readRectangle(object, subject, light);
+    if (light.type != LightType::directional) light.position = vector<3>(object, "position", subject);
+    if (light.type != LightType::point) light.direction = unitVector(object, "direction", subject);
+    if (light.type == LightType::spot) readCone(object, subject, light);
+    if (light.type == LightType::area) readRectangle(object, subject, light);
     return light;
 }
 
 CameraView readCamera(const Json& object, const std::string& subject) {
     Result<CameraView> camera = cameraFromJson(object, subject);
-    if (!camera)
-        refuse(camera.error().message);
+    if (!camera) refuse(camera.error().message);
     if (text(object, "name", subject).empty())
         refuseValue(subject, "name", object["name"], "a name that is not empty");
     return std::move(*camera);
@@ -145,8 +131,7 @@ CameraView readCamera(const Json& object, const std::string& subject) {
 template <class Read>
 auto readList(const Json& root, const char* key, Read read) {
     const Json& list = member(root, key, "the file");
-    if (!list.is_array())
-        refuseValue("the file", key, list, "a list");
+    if (!list.is_array()) refuseValue("the file", key, list, "a list");
     std::vector<decltype(read(list, std::string()))> items;
     for (const Json& item : list)
         items.push_back(read(item, std::string(key) + "[" + std::to_string(items.size()) + "]"));
@@ -155,8 +140,7 @@ auto readList(const Json& root, const char* key, Read read) {
 
 glm::vec3 readEnvironment(const Json& root) {
     const Json& environment = member(root, "environment", "the file");
-    if (!environment.is_object())
-        refuseValue("the file", "environment", environment, "an object");
+    if (!environment.is_object()) refuseValue("the file", "environment", environment, "an object");
     if (text(environment, "type", "environment") != "constant")
         refuseValue("environment", "type", environment["type"], "constant");
     const glm::vec3 radiance = vector<3>(environment, "radiance", "environment");
@@ -167,18 +151,15 @@ glm::vec3 readEnvironment(const Json& root) {
 
 bool readEmissiveFlag(const Json& root) {
     const Json& flag = member(root, "emissive_materials", "the file");
-    if (!flag.is_boolean())
-        refuseValue("the file", "emissive_materials", flag, "true or false");
+    if (!flag.is_boolean()) refuseValue("the file", "emissive_materials", flag, "true or false");
     return flag.get<bool>();
 }
 
 GltfOptions readAnimation(const Json& root) {
     GltfOptions options;
     const auto animation = root.find("animation");
-    if (animation == root.end())
-        return options;
-    if (!animation->is_object())
-        refuseValue("the file", "animation", *animation, "an object");
+    if (animation == root.end()) return options;
+    if (!animation->is_object()) refuseValue("the file", "animation", *animation, "an object");
     options.animation = text(*animation, "name", "animation");
     options.time = number(*animation, "time_s", "animation");
     options.animate = true;

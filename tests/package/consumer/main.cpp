@@ -45,8 +45,7 @@ struct Room {
                 const bool floor = down * 4.0f > 1.0f;
                 depth[i] = floor ? 1.0f / down : 4.0f;
                 normal[3 * i + (floor ? 1 : 2)] = 1.0f;
-                for (size_t c = 0; c < 3; ++c)
-                    radiance[3 * i + c] = floor ? 0.0f : 1.0f;
+                for (size_t c = 0; c < 3; ++c) radiance[3 * i + c] = floor ? 0.0f : 1.0f;
             }
     }
 };
@@ -61,11 +60,9 @@ Result<> light(Room& room, const cpu::Device& device) {
     settings.resolution = extent;
     settings.compose = false;
     auto plan = planScreenIndirect(settings);
-    if (!plan)
-        return plan.error();
+    if (!plan) return plan.error();
     auto program = device.compile(*plan);
-    if (!program)
-        return program.error();
+    if (!program) return program.error();
     ScreenIndirectFrame<cpu::Image> frame;
     frame.camera = room.camera;
     frame.depth = cpu::interleavedImage(room.depth.data(), extent, 1);
@@ -73,8 +70,7 @@ Result<> light(Room& room, const cpu::Device& device) {
     frame.radiance = cpu::interleavedImage(room.radiance.data(), extent, 3);
     frame.indirect = cpu::interleavedImage(room.indirect.data(), extent, 3);
     auto inputs = screenIndirectInputs(settings, frame);
-    if (!inputs)
-        return inputs.error();
+    if (!inputs) return inputs.error();
     return program->record(*inputs);
 }
 
@@ -91,14 +87,12 @@ Result<std::vector<float>> halve(std::vector<float> whole, const cpu::Device& de
                            {{0, from, Access::read}, {1, to, Access::write}, {2, constants, Access::read}},
                            extent});
     auto program = device.compile(plan);
-    if (!program)
-        return program.error();
+    if (!program) return program.error();
     std::vector<float> result(whole.size());
     FrameInputs<cpu::Image> inputs;
     inputs.images = {{"from", cpu::interleavedImage(whole.data(), extent, 3)},
                      {"to", cpu::interleavedImage(result.data(), extent, 3)}};
-    if (auto recorded = program->record(inputs); !recorded)
-        return recorded.error();
+    if (auto recorded = program->record(inputs); !recorded) return recorded.error();
     return result;
 }
 
@@ -106,11 +100,9 @@ Result<std::vector<float>> halve(std::vector<float> whole, const cpu::Device& de
 bool isPlausible(const Room& room) {
     float brightest = 0.0f;
     for (size_t i = 0; i < room.indirect.size(); ++i) {
-        if (!std::isfinite(room.indirect[i]))
-            return false;
+        if (!std::isfinite(room.indirect[i])) return false;
         const bool floor = room.radiance[i] == 0.0f;
-        if (floor)
-            brightest = std::max(brightest, room.indirect[i]);
+        if (floor) brightest = std::max(brightest, room.indirect[i]);
     }
     return brightest > 0.0f && brightest <= 1.0f;
 }
@@ -119,28 +111,22 @@ bool isPlausible(const Room& room) {
 
 int main(int count, char** arguments) {
     auto isa = cpu::isaFromName(count > 1 ? arguments[1] : "automatic");
-    if (!isa)
-        return fail(isa.error().message);
+    if (!isa) return fail(isa.error().message);
     cpu::DeviceOptions options;
     options.isa = *isa;
     options.moreKernels = {cpu::consumerKernels};
     auto device = cpu::Device::create(options);
-    if (!device)
-        return fail(device.error().message) + 1;
+    if (!device) return fail(device.error().message) + 1;
 
     Room room;
-    if (auto lit = light(room, *device); !lit)
-        return fail(lit.error().message);
+    if (auto lit = light(room, *device); !lit) return fail(lit.error().message);
     if (!isPlausible(room))
         return fail("the floor's light is not finite, or is zero or brighter than the wall");
     auto half = halve(room.indirect, *device);
-    if (!half)
-        return fail(half.error().message);
+    if (!half) return fail(half.error().message);
     for (size_t i = 0; i < half->size(); ++i)
-        if ((*half)[i] != 0.5f * room.indirect[i])
-            return fail("the consumer's own kernel does not halve");
-    if (techniqueShaders().empty() || consumerShaders().size() != 1)
-        return fail("shaders are missing");
+        if ((*half)[i] != 0.5f * room.indirect[i]) return fail("the consumer's own kernel does not halve");
+    if (techniqueShaders().empty() || consumerShaders().size() != 1) return fail("shaders are missing");
     std::printf("isa %s\n", cpu::name(device->isa()));
     return 0;
 }

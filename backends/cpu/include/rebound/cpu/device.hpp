@@ -16,12 +16,12 @@ enum class Scalar { float32, float16 };
 // An image of the host, in any regular layout: interleaved or a plane a channel. Fastest: a plane a channel.
 // The host keeps it alive during record(), and no output may overlap any other image of the frame.
 struct Image {
-    void* data = nullptr;       // pixel 0, 0 of channel 0
+    void* data = nullptr; // pixel 0, 0 of channel 0
     Extent2D extent;
-    int channels = 0;           // 1 to 4; at least as many as the plan's resource has in use
+    int channels = 0; // 1 to 4; at least as many as the plan's resource has in use
     Scalar scalar = Scalar::float32;
-    ptrdiff_t pixelStride = 0;  // from one pixel to its right neighbour [bytes]
-    ptrdiff_t rowStride = 0;    // from one row to the next [bytes]
+    ptrdiff_t pixelStride = 0;   // from one pixel to its right neighbour [bytes]
+    ptrdiff_t rowStride = 0;     // from one row to the next [bytes]
     ptrdiff_t channelStride = 0; // from one channel to the next [bytes]
 };
 
@@ -31,9 +31,9 @@ Image planarImage(void* data, Extent2D, int channels, Scalar = Scalar::float32);
 
 struct DeviceOptions {
     Isa isa = Isa::automatic;
-    int threads = 0;             // of the device's own pool, 1 to 1024; 0: one a core. Ignored where parallelFor is set
-    ParallelFor parallelFor;     // the engine's own; empty: the device's pool
-    bool timings = false;        // whether record() measures its passes
+    int threads = 0; // of the device's own pool, 1 to 1024; 0: one a core. Ignored where parallelFor is set
+    ParallelFor parallelFor; // the engine's own; empty: the device's pool
+    bool timings = false;    // whether record() measures its passes
     // Kernels beside the techniques' own, of an engine that writes some; looked up first.
     std::vector<std::span<const KernelEntry* const> (*)(Isa)> moreKernels;
 };

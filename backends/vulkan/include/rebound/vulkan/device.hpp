@@ -19,12 +19,13 @@ namespace rebound::vulkan {
 // input to reads, an output to writes), in the layout given here; Rebound never changes it. Afterwards outputs have been
 // written by compute shaders: the host's next barrier waits for stage COMPUTE_SHADER, access SHADER_WRITE.
 struct Image {
-    VkImageView view = VK_NULL_HANDLE;             // 2D, of one aspect; usage SAMPLED (inputs), STORAGE and, as later
-                                                   // passes may read them, SAMPLED (outputs)
-    Extent2D extent;                               // of the image
-    VkFormat format = VK_FORMAT_UNDEFINED;         // of outputs: that of the plan's resource; of inputs: any that
-                                                   // shaders sample as floats, and not looked at
-    VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL; // of inputs: any in which shaders read; of outputs: GENERAL
+    VkImageView view = VK_NULL_HANDLE;     // 2D, of one aspect; usage SAMPLED (inputs), STORAGE and, as later
+                                           // passes may read them, SAMPLED (outputs)
+    Extent2D extent;                       // of the image
+    VkFormat format = VK_FORMAT_UNDEFINED; // of outputs: that of the plan's resource; of inputs: any that
+                                           // shaders sample as floats, and not looked at
+    VkImageLayout layout =
+        VK_IMAGE_LAYOUT_GENERAL; // of inputs: any in which shaders read; of outputs: GENERAL
 };
 
 // The format of a plan's resource.
@@ -36,13 +37,13 @@ struct DeviceOptions {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    uint32_t queueFamily = 0;                     // of the command buffers: a family that computes
-    MemoryAllocator allocator;                    // the host's; empty: one vkAllocateMemory for a program's transients
-                                                  // and one for its buffers
-    std::span<const std::byte> pipelineCache;     // what pipelineCache() gave in an earlier run; may be empty,
-                                                  // stale or spoilt: then it is left out
-    bool timings = false;                         // whether programs measure their passes
-    bool debugUtils = false;                      // the host has enabled VK_EXT_debug_utils: name objects, label passes
+    uint32_t queueFamily = 0;  // of the command buffers: a family that computes
+    MemoryAllocator allocator; // the host's; empty: one vkAllocateMemory for a program's transients
+                               // and one for its buffers
+    std::span<const std::byte> pipelineCache; // what pipelineCache() gave in an earlier run; may be empty,
+                                              // stale or spoilt: then it is left out
+    bool timings = false;                     // whether programs measure their passes
+    bool debugUtils = false; // the host has enabled VK_EXT_debug_utils: name objects, label passes
     // Shaders beside the techniques' own, of an engine that writes some; looked up first.
     std::vector<std::span<const Shader* const>> moreShaders;
 };
@@ -50,11 +51,11 @@ struct DeviceOptions {
 class Program;
 
 struct CompileOptions {
-    int framesInFlight = 2;               // 1 to 8: how many recordings may be in use by the GPU at once
+    int framesInFlight = 2; // 1 to 8: how many recordings may be in use by the GPU at once
     // Use that program's memory for transients: for several views, or for the successor of a program that is still in
     // flight. Both are to be recorded for the same queue. Fails where that memory is too small: begin with the largest.
     const Program* shareTransientsWith = nullptr;
-    bool inspectable = false;             // transients can be copied from and to: see transientImage()
+    bool inspectable = false; // transients can be copied from and to: see transientImage()
 };
 
 // Once a call has failed with deviceLost, every call of this device and of its programs that can fail does at once, with
