@@ -56,7 +56,7 @@ inline std::vector<View> madeViews() {
 
 inline std::vector<ChartBackend> madeBackends() {
     std::vector<ChartBackend> backends;
-    backends.push_back({"cpu", "scalar on 1 thread", nullptr});
+    backends.push_back({"cpu", "scalar on 1 thread", "hash-of-its-source", nullptr});
     return backends;
 }
 

@@ -118,6 +118,10 @@ TEST_CASE("a point is measured again when anything that it depends on is another
         chart.machine = "another machine";
         CHECK(chart.measurementsOf(folder.path()) == 4);
     }
+    SUBCASE("the code of a kernel, or of what runs it") {
+        chart.backends[0].source = "hash-of-another-source";
+        CHECK(chart.measurementsOf(folder.path()) == 4);
+    }
     SUBCASE("a picture that is gone") {
         for (const auto& entry : fs::directory_iterator(folder / "pictures"))
             if (entry.path().string().find("box-side-quarter-16") != std::string::npos)

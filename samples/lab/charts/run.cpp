@@ -4,6 +4,7 @@
 #include "lab/charts/file_lock.hpp"
 #include "lab/charts/pareto.hpp"
 #include "lab/charts/pictures.hpp"
+#include "lab/charts/source_hashes.hpp"
 #include "lab/measure/measurement.hpp"
 
 #include <algorithm>
@@ -94,7 +95,9 @@ private:
     Result<> addPoint(const View& view, ChartBackend& backend, const Setting& setting,
                       ViewPictures& pictures) {
         const std::string title = view.label + " " + setting.name + " " + backend.label;
-        const PointKey key(keyOf(view, backend, setting), title);
+        const auto plan = measure::planOf(setting.settings, measure::Spelling::keys);
+        if (!plan) return plan.error();
+        const PointKey key(keyOf(view, backend, setting, *plan), title);
         if (const auto known = store.find(key)) {
             results.points.push_back(*known);
             return {};
@@ -149,12 +152,15 @@ private:
         return workshop.measure(view, setting, backend, progress);
     }
 
-    Json keyOf(const View& view, const ChartBackend& backend, const Setting& setting) const {
+    Json keyOf(const View& view, const ChartBackend& backend, const Setting& setting,
+               const Plan& plan) const {
         Json settings = measure::settingsToJson(setting.settings, setting.preset);
         settings.erase("preset"); // where it began does not matter
         return {{"version", REBOUND_VERSION},
                 {"technique", setting.technique},
                 {"settings", settings},
+                {"plan", planHash(plan)},
+                {"source", backend.source},
                 {"content", view.contentKey},
                 {"reference", toJson(run.sweep.reference)},
                 {"size", {run.sweep.size.width, run.sweep.size.height}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a sweep's names stand for on this machine.
+#include "lab/charts/source_hashes.hpp"
 #include "lab/charts/workshop.hpp"
 #include "lab/light/path_tracer.hpp"
 #include "lab/scenes/scene_files.hpp"
@@ -92,8 +93,8 @@ Result<std::vector<ChartBackend>> createBackends(const std::string& what,
         auto backend = runner::createBackend(choice);
         if (!backend) return backend.error();
         const runner::BackendInfo info = (*backend)->info();
-        backends.push_back(
-            {name, info.backend == "cpu" ? runner::toText(info) : info.device, *std::move(backend)});
+        backends.push_back({name, info.backend == "cpu" ? runner::toText(info) : info.device,
+                            sourceHash(info.backend), *std::move(backend)});
     }
     if (backends.empty())
         return invalidArgument(what + " is empty; some of cpu, vulkan and opengl were expected");

@@ -38,6 +38,7 @@ struct Trial {
 struct ChartBackend {
     std::string label;  // as it was asked for
     std::string device; // what it runs on
+    std::string source; // a hash of the code that is measured
     std::unique_ptr<runner::Backend> backend;
 };
 

@@ -60,7 +60,8 @@ struct PathTracedLight {
     double relativeError = 0.0;
 };
 
-// 32 hexadecimal digits: a hash of all that path-traced light depends on, but for how many samples are taken.
+// 32 hexadecimal digits: a hash of all that path-traced light depends on, the text of the path tracer and of what casts
+// its rays included, but for how many samples are taken.
 std::string pathTracerKey(const Scene&, const CameraView&, const PathTracerOptions&);
 
 // Adds paths pass by pass; can be stopped after each, and taken up again from what it saved. The same scene,

@@ -2,12 +2,15 @@
 #include "lab/light/path_tracer.hpp"
 #include "lab/scenes/content_hash.hpp"
 
+#include <string_view>
+
 namespace rebound::lab {
 
-namespace {
+namespace embedded {
+extern const std::string_view pathTracerSource; // a hash of the path tracer's own text
+} // namespace embedded
 
-// To be raised whenever the same input gives other light.
-constexpr int pathTracerVersion = 1;
+namespace {
 
 void add(ContentHash& hash, const Texture& texture) {
     hash.add(texture.width);
@@ -68,7 +71,7 @@ void addAll(ContentHash& hash, const std::vector<Part>& parts) {
 
 std::string pathTracerKey(const Scene& scene, const CameraView& camera, const PathTracerOptions& options) {
     ContentHash hash;
-    hash.add(pathTracerVersion);
+    hash.addRange(std::span<const char>(embedded::pathTracerSource));
     addAll(hash, scene.textures);
     addAll(hash, scene.materials);
     addAll(hash, scene.meshes);

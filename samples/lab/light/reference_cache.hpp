@@ -9,7 +9,7 @@
 namespace rebound::lab {
 
 // What tracePaths() returns, or better: <folder>/<pathTracerKey>.paths keeps what was traced, and is taken up
-// where it has not enough samples. It is written after every pass, so that an interruption loses little. The
+// where it has not enough samples; what another path tracer has left is not. It is written after every pass, so that an interruption loses little. The
 // folder is created where it is missing; a damaged file is traced anew.
 Result<PathTracedLight> cachedReference(const Scene&, const CameraView&, const PathTracerOptions&,
                                         const std::filesystem::path& folder);
