@@ -69,7 +69,8 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
                    "(presets: 40 at 720 rows, in proportion elsewhere)")
         ->option_text("R")
         ->group(techniqueGroup);
-    app.add_option("--samples", o.samples, "samples a pixel and level, 4 to 256")
+    app.add_option("--samples", o.samples,
+                   "samples a pixel and level, 4 to 256; all: every texel of every ring")
         ->option_text("N")
         ->group(techniqueGroup);
     app.add_option("--reduce", o.reduction,

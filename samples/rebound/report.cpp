@@ -27,7 +27,7 @@ std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings
     text += ", " + std::to_string(s.resolution.width) + "x" + std::to_string(s.resolution.height) + ", " +
             runner::toText(backend) + ", images in " + nameOf(precision) + "\n";
     text += preset + ": from " + nameOf(s.start) + " resolution, " + plural(s.levels, "level") + ", " +
-            std::to_string(s.samplesPerLevel) + " samples a level, " +
+            measure::samplesText(s) + " samples a level, " +
             formatted("ring radius %g texels, ", double(s.ringRadius)) + nameOf(s.reduction) +
             ", form factor " + nameOf(s.formFactor) +
             formatted(", minimum cosine %g", double(s.minimumCosine));

@@ -23,6 +23,10 @@ int wholeNumber(const Value& value, const std::string& where) {
     return integerOf(value, where, -1000000, 1000000); // planScreenIndirect() knows each setting's range
 }
 
+std::string samplesText(const Value& value, const std::string& where) {
+    return value.is_string() ? textOf(value, where) : std::to_string(wholeNumber(value, where));
+}
+
 std::string radiusText(const Value& value, const std::string& where) {
     if (value.is_string()) return textOf(value, where);
     char text[32];
@@ -40,7 +44,7 @@ void assign(measure::SettingsDraft& draft, const std::string& key, const Value& 
     else if (key == "cover_screen") draft.coverScreen = textOf(value, where);
     else if (key == "radius") draft.radius = radiusText(value, where);
     else if (key == "levels") draft.levels = wholeNumber(value, where);
-    else if (key == "samples") draft.samples = wholeNumber(value, where);
+    else if (key == "samples") draft.samples = samplesText(value, where);
     else draft.minimumCosine = float(numberOf(value, where, 0.001, 1.0));
 }
 
@@ -149,7 +153,7 @@ Sweep readSweepObject(const Value& root, std::optional<Extent2D> size) {
 } // namespace
 
 std::string nameOfSettings(const ScreenIndirectSettings& s) {
-    std::string name = std::string(measure::nameOf(s.start)) + "-" + std::to_string(s.samplesPerLevel);
+    std::string name = std::string(measure::nameOf(s.start)) + "-" + measure::samplesText(s);
     const auto usual = screenIndirectPreset("quarter-64", s.resolution);
     if (s.levels != 4) name.append("-").append(std::to_string(s.levels));
     if (s.reduction != Reduction::voting) name += std::string(" ") + measure::nameOf(s.reduction);

@@ -4,43 +4,15 @@
 #include "lab/explain/screen_estimates.hpp"
 #include "lab/runner/runner.hpp"
 #include "lab/scenes/camera_matrices.hpp"
-#include "rebound/math/rings.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace rebound::explain {
 
 namespace {
 
 using lab::Image;
-
-// Makes every level gather every texel of its ring.
-Result<> gatherAllTexels(Plan& plan, const ScreenIndirectSettings& settings) {
-    for (int level = 0; level < settings.levels; ++level) {
-        const std::string label = "gather level " + std::to_string(level);
-        const ResourceIndex ring = plan.find(label + " ring");
-        const ResourceIndex constants = plan.find(label + " constants");
-        const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                       [&](const Pass& p) { return p.label == label; });
-        if (ring < 0 || constants < 0 || pass == plan.passes.end())
-            return Error{ErrorCode::unsupported,
-                         "the plan has no pass \"" + label + "\" with a ring of its own"};
-        const bool open = settings.coverScreen && level == settings.levels - 1;
-        std::vector<detail::RingSample> samples;
-        for (const RingTexel& texel : ringTexels({settings.ringRadius, level == 0, open}, pass->grid))
-            samples.push_back({texel.offset, texel.weight, 0.0f});
-        if (samples.empty()) continue;
-        plan.resources[size_t(ring)] = bufferResource(label + " ring", samples);
-        detail::GatherConstants values;
-        std::vector<std::byte>& bytes = plan.resources[size_t(constants)].data;
-        std::memcpy(&values, bytes.data(), sizeof values);
-        values.extent.z = int(samples.size());
-        std::memcpy(bytes.data(), &values, sizeof values);
-    }
-    return {};
-}
 
 class TechniqueRuns {
 public:
@@ -50,14 +22,12 @@ public:
         radiance = lab::outgoingRadiance(frame);
     }
 
-    Result<Image> run(ScreenIndirectSettings settings, bool allTexels) {
+    Result<Image> run(ScreenIndirectSettings settings) {
         settings.writeIndirect = true;
         settings.compose = false;
         settings.onlyLevel = {};
         auto plan = planScreenIndirect(settings);
         if (!plan) return plan.error();
-        if (allTexels)
-            if (auto changed = gatherAllTexels(*plan, settings); !changed) return changed.error();
         const Camera camera = lab::cameraMatrices(frame.camera, settings.resolution);
         auto inputs = screenIndirectInputs(
             settings,
@@ -146,19 +116,19 @@ Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options
     ScreenIndirectSettings given = options.settings;
     given.conventions.projection =
         frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    ScreenIndirectSettings oneLevel = given;
+    ScreenIndirectSettings allSamples = given;
+    allSamples.samplesPerLevel = wholeRings;
+    ScreenIndirectSettings oneLevel = allSamples;
     oneLevel.levels = 1;
     oneLevel.coverScreen = true;
-    oneLevel.samplesPerLevel = 4; // replaced by all
     ScreenIndirectSettings full = oneLevel;
     full.start = StartResolution::full;
     full.smooth = false;
     Runs runs;
     int done = 0;
-    for (auto [image, settings, allTexels] :
-         {std::tuple{&runs.result, given, false}, std::tuple{&runs.allSamples, given, true},
-          std::tuple{&runs.startSum, oneLevel, true}, std::tuple{&runs.fullSum, full, true}}) {
-        auto run = technique.run(settings, allTexels);
+    for (auto [image, settings] : {std::pair{&runs.result, given}, std::pair{&runs.allSamples, allSamples},
+                                   std::pair{&runs.startSum, oneLevel}, std::pair{&runs.fullSum, full}}) {
+        auto run = technique.run(settings);
         if (!run) return run.error();
         *image = *std::move(run);
         if (options.progress) options.progress(techniqueShare * double(++done) / 4.0);

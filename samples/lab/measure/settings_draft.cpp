@@ -64,9 +64,17 @@ Result<> replaceRadius(ScreenIndirectSettings& settings, const std::string& what
     return {};
 }
 
-constexpr std::array<std::pair<std::string_view, const char*>, 5> nameOfSetting{{
+Result<> replaceSamples(int& setting, const std::string& what, const std::optional<std::string>& wanted) {
+    if (!wanted) return {};
+    const auto samples = *wanted == "all" ? std::optional<int>(wholeRings) : parseNumber<int>(*wanted);
+    if (!samples || ((*samples < 4 || *samples > 256) && *samples != wholeRings))
+        return unexpected(what, *wanted, "4 to 256, or all,");
+    setting = *samples;
+    return {};
+}
+
+constexpr std::array<std::pair<std::string_view, const char*>, 4> nameOfSetting{{
     {"settings.levels", "levels"},
-    {"settings.samplesPerLevel", "samples"},
     {"settings.ringRadius", "radius"},
     {"settings.minimumCosine", "minimum-cosine"},
     {"settings.onlyLevel", "only-level"},
@@ -78,6 +86,10 @@ const char* nameOf(StartResolution value) { return nameIn<StartResolution>(start
 const char* nameOf(Reduction value) { return nameIn<Reduction>(reductionNames, value); }
 const char* nameOf(FormFactor value) { return nameIn<FormFactor>(formFactorNames, value); }
 const char* nameOf(runner::Precision value) { return nameIn<runner::Precision>(precisionNames, value); }
+
+std::string samplesText(const ScreenIndirectSettings& s) {
+    return s.samplesPerLevel == wholeRings ? "all" : std::to_string(s.samplesPerLevel);
+}
 
 Result<Extent2D> parseSize(const std::string& what, const std::string& text) {
     const size_t times = text.find('x');
@@ -118,7 +130,8 @@ Result<ScreenIndirectSettings> settingsOf(const SettingsDraft& draft, Extent2D r
         !set)
         return set.error();
     settings.levels = draft.levels.value_or(settings.levels);
-    settings.samplesPerLevel = draft.samples.value_or(settings.samplesPerLevel);
+    if (auto set = replaceSamples(settings.samplesPerLevel, called("samples"), draft.samples); !set)
+        return set.error();
     settings.minimumCosine = draft.minimumCosine.value_or(settings.minimumCosine);
     settings.onlyLevel = draft.onlyLevel;
     // A number of levels out of range is planOf's to refuse; it has no covering radius.

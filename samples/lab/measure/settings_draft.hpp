@@ -14,7 +14,8 @@ namespace rebound::measure {
 struct SettingsDraft {
     std::string preset = "quarter-64";
     std::optional<std::string> start, radius, reduction, formFactor, smooth, coverScreen;
-    std::optional<int> levels, samples, onlyLevel;
+    std::optional<std::string> samples; // a number, or all
+    std::optional<int> levels, onlyLevel;
     std::optional<float> minimumCosine;
 };
 
@@ -41,5 +42,6 @@ const char* nameOf(StartResolution);
 const char* nameOf(Reduction);
 const char* nameOf(FormFactor);
 const char* nameOf(runner::Precision);
+std::string samplesText(const ScreenIndirectSettings&); // 4 to 256, or all
 
 } // namespace rebound::measure

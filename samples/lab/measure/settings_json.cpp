@@ -10,7 +10,8 @@ Json settingsToJson(const ScreenIndirectSettings& s, const std::string& preset) 
     json["preset"] = preset;
     json["start"] = nameOf(s.start);
     json["levels"] = s.levels;
-    json["samples_per_level"] = s.samplesPerLevel;
+    if (s.samplesPerLevel == wholeRings) json["samples_per_level"] = "all";
+    else json["samples_per_level"] = s.samplesPerLevel;
     json["ring_radius_texels"] = s.ringRadius;
     json["reduction"] = nameOf(s.reduction);
     json["form_factor"] = nameOf(s.formFactor);
