@@ -6,17 +6,24 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace rebound::lab {
 namespace {
 
 constexpr std::string_view builtinPrefix = "builtin:";
 
+constexpr std::pair<const char*, Scene (*)()> builtinMakers[] = {{"atrium", makeAtrium},
+                                                                 {"cornell", makeCornellBox},
+                                                                 {"study", makeStudy},
+                                                                 {"street", makeStreet},
+                                                                 {"tunnel", makeTunnel}};
+
 Scene makeBuiltin(const std::string& name) {
-    if (name == "atrium") return makeAtrium();
-    if (name == "cornell") return makeCornellBox();
-    refuse("there is no built-in scene '" + std::string(builtinPrefix) + name +
-               "'; there are 'builtin:atrium' and 'builtin:cornell'",
+    for (const auto& [known, make] : builtinMakers)
+        if (name == known) return make();
+    refuse("there is no built-in scene '" + std::string(builtinPrefix) + name + "'; " + builtinSceneList() +
+               " was expected",
            ErrorCode::notFound);
 }
 
@@ -93,6 +100,23 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile, 
 }
 
 } // namespace
+
+const std::vector<std::string>& builtinScenes() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const auto& maker : builtinMakers) all.push_back(std::string(builtinPrefix) + maker.first);
+        return all;
+    }();
+    return names;
+}
+
+std::string builtinSceneList() {
+    const std::vector<std::string>& names = builtinScenes();
+    std::string list;
+    for (size_t i = 0; i < names.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+    return list;
+}
 
 Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile,
                         const SceneMoment& moment) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rebound::lab {
 
@@ -36,7 +37,7 @@ struct SceneMoment {
     std::optional<float> time;            // of that clip [s]
 };
 
-// A scene file, or "builtin:atrium" or "builtin:cornell", which do not move. With an empty viewFile, the view.json
+// A scene file, or one of builtinScenes(), which have no animation. With an empty viewFile, the view.json
 // beside a scene file is used where there is one. A scene that has no camera gets one that sees all of it. The result
 // is validated.
 Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile = {},
@@ -44,5 +45,13 @@ Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem:
 
 Scene makeCornellBox();
 Scene makeAtrium();
+Scene makeStudy();
+Scene makeStreet();
+Scene makeTunnel();
+
+// Names of the scenes made in code, with "builtin:" before them.
+const std::vector<std::string>& builtinScenes();
+// The same as a sentence has them: "a, b or c".
+std::string builtinSceneList();
 
 } // namespace rebound::lab
