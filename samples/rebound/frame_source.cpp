@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 Result<lab::Scene> loadSceneOf(const SourceOptions& options) {
     if (options.scene.empty())
-        return invalidArgument("SCENE is empty; a glTF file, builtin:atrium or builtin:cornell was expected");
+        return invalidArgument("SCENE is empty; a glTF file, " + lab::builtinSceneList() + " was expected");
     if (options.time && !std::isfinite(*options.time))
         return invalidArgument("--time is not finite; a number of seconds was expected");
     if ((options.animation || options.time) && options.scene.starts_with("builtin:"))

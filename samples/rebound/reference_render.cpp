@@ -4,8 +4,8 @@
 #include "frame_source.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/light/reference_cache.hpp"
-#include "lab/measure/named_values.hpp"
 #include "lab/scenes/camera_json.hpp"
+#include "lab/techniques/named_values.hpp"
 #include "memory_check.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
@@ -121,7 +121,9 @@ Result<lab::PathTracedLight> trace(const SourcedView& view, lab::PathTracerOptio
 
 } // namespace
 
-const char* nameOf(lab::GlossyModel value) { return measure::nameIn<lab::GlossyModel>(glossyNames, value); }
+const char* nameOf(lab::GlossyModel value) {
+    return techniques::nameIn<lab::GlossyModel>(glossyNames, value);
+}
 
 void addReferenceOptions(CLI::App& app, ReferenceOptions& o) {
     app.add_option("--bounces", o.bounces,
@@ -155,7 +157,7 @@ Result<lab::PathTracerOptions> pathTracerOptionsOf(const ReferenceOptions& o, Ex
     options.error = o.error.value_or(options.error);
     options.seed = o.seed.value_or(options.seed);
     if (o.glossy) {
-        const auto glossy = measure::valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
+        const auto glossy = techniques::valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
         if (!glossy) return glossy.error();
         options.glossy = *glossy;
     }

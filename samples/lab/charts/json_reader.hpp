@@ -6,9 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace rebound::charts {
 
@@ -33,17 +34,14 @@ inline const nlohmann::json& member(const nlohmann::json& object, const std::str
 }
 
 inline void checkKeys(const nlohmann::json& object, const std::string& where,
-                      std::initializer_list<const char*> known) {
+                      const std::vector<std::string>& known) {
     if (!object.is_object()) refuseValue(where, object, "an object");
     std::string list;
-    for (const char* key : known) list += (list.empty() ? "" : ", ") + std::string(key);
-    for (const auto& [key, value] : object.items()) {
-        bool isKnown = false;
-        for (const char* k : known) isKnown = isKnown || key == k;
-        if (!isKnown)
+    for (const std::string& key : known) list += (list.empty() ? "" : ", ") + key;
+    for (const auto& [key, value] : object.items())
+        if (std::find(known.begin(), known.end(), key) == known.end())
             lab::refuse((where.empty() ? "" : where + ": ") + "the key " + shortText(nlohmann::json(key)) +
                         " is unknown; some of " + list + " were expected");
-    }
 }
 
 inline std::string textOf(const nlohmann::json& value, const std::string& where) {

@@ -5,6 +5,7 @@
 #include "lab/files/file_bytes.hpp"
 #include "lab/files/json_text.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/measure/run_values.hpp"
 
 #include <algorithm>
 #include <system_error>

@@ -46,7 +46,8 @@ class Workshop {
 public:
     virtual ~Workshop() = default;
     virtual Result<Truth> truth(const View&, const lab::Progress&) = 0;
-    virtual Result<Trial> measure(const View&, const Setting&, ChartBackend&, const lab::Progress&) = 0;
+    virtual Result<Trial> measure(const View&, const techniques::Configured&, ChartBackend&,
+                                  const lab::Progress&) = 0;
 };
 
 // Scenes are rendered and path traced; references are kept in a folder. One view's frame is held at a time.
@@ -56,7 +57,8 @@ public:
         : sweep(what), precision(hostPrecision), references(std::move(referenceFolder)) {}
 
     Result<Truth> truth(const View&, const lab::Progress&) override;
-    Result<Trial> measure(const View&, const Setting&, ChartBackend&, const lab::Progress&) override;
+    Result<Trial> measure(const View&, const techniques::Configured&, ChartBackend&,
+                          const lab::Progress&) override;
 
 private:
     Result<> prepareFrame(const View&, const lab::Progress&);

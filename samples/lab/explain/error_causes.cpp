@@ -3,44 +3,15 @@
 
 #include "lab/explain/screen_estimates.hpp"
 #include "lab/runner/runner.hpp"
-#include "lab/scenes/camera_matrices.hpp"
-#include "rebound/math/rings.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace rebound::explain {
 
 namespace {
 
 using lab::Image;
-
-// Makes every level gather every texel of its ring.
-Result<> gatherAllTexels(Plan& plan, const ScreenIndirectSettings& settings) {
-    for (int level = 0; level < settings.levels; ++level) {
-        const std::string label = "gather level " + std::to_string(level);
-        const ResourceIndex ring = plan.find(label + " ring");
-        const ResourceIndex constants = plan.find(label + " constants");
-        const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                       [&](const Pass& p) { return p.label == label; });
-        if (ring < 0 || constants < 0 || pass == plan.passes.end())
-            return Error{ErrorCode::unsupported,
-                         "the plan has no pass \"" + label + "\" with a ring of its own"};
-        const bool open = settings.coverScreen && level == settings.levels - 1;
-        std::vector<detail::RingSample> samples;
-        for (const RingTexel& texel : ringTexels({settings.ringRadius, level == 0, open}, pass->grid))
-            samples.push_back({texel.offset, texel.weight, 0.0f});
-        if (samples.empty()) continue;
-        plan.resources[size_t(ring)] = bufferResource(label + " ring", samples);
-        detail::GatherConstants values;
-        std::vector<std::byte>& bytes = plan.resources[size_t(constants)].data;
-        std::memcpy(&values, bytes.data(), sizeof values);
-        values.extent.z = int(samples.size());
-        std::memcpy(bytes.data(), &values, sizeof values);
-    }
-    return {};
-}
 
 class TechniqueRuns {
 public:
@@ -50,20 +21,10 @@ public:
         radiance = lab::outgoingRadiance(frame);
     }
 
-    Result<Image> run(ScreenIndirectSettings settings, bool allTexels) {
-        settings.writeIndirect = true;
-        settings.compose = false;
-        settings.onlyLevel = {};
-        auto plan = planScreenIndirect(settings);
-        if (!plan) return plan.error();
-        if (allTexels)
-            if (auto changed = gatherAllTexels(*plan, settings); !changed) return changed.error();
-        const Camera camera = lab::cameraMatrices(frame.camera, settings.resolution);
-        auto inputs = screenIndirectInputs(
-            settings,
-            ScreenIndirectFrame<Image>{camera, frame.depth, frame.normal, radiance, {}, {}, {}, {}});
+    Result<Image> run(const techniques::Configured& technique) {
+        auto inputs = technique.inputs(frame, radiance);
         if (!inputs) return inputs.error();
-        auto prepared = backend.prepare(*plan, *inputs, {runner::Precision::single, false});
+        auto prepared = backend.prepare(technique.plan, *inputs, {runner::Precision::single, false});
         if (!prepared) return prepared.error();
         if (auto ran = (*prepared)->run(); !ran) return ran.error();
         return (*prepared)->read("indirect");
@@ -125,59 +86,55 @@ double noiseOf(const Image& standardError, const Image& depth) {
 
 // A result on the way from the technique to the truth, and what was switched to get there.
 struct Step {
-    const char* name;
-    const char* meaning;
+    std::string name;
+    std::string meaning;
     Image image;
 };
 
 struct Runs {
-    Image result, allSamples, startSum, fullSum;
+    Image result;
+    std::vector<Step> steps; // the technique's own approximations
 };
 
 // The part of the progress that runs of the technique stand for; sums over all pixels of large pictures take longer.
 constexpr double techniqueShare = 0.2;
 
 Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options) {
+    const techniques::View view = techniques::viewOf(frame);
+    const auto configured = options.technique->parse(options.draft, view, techniques::Spelling::options);
+    if (!configured) return configured.error();
+    std::vector<techniques::Ablation> ablations;
+    if (options.technique->ablations) {
+        auto made = options.technique->ablations(options.draft, view);
+        if (!made) return made.error();
+        ablations = *std::move(made);
+    }
     runner::BackendChoice cpu;
     cpu.threads = options.threads;
     auto backend = runner::createBackend(cpu);
     if (!backend) return backend.error();
     TechniqueRuns technique(frame, **backend);
-    ScreenIndirectSettings given = options.settings;
-    given.conventions.projection =
-        frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    ScreenIndirectSettings oneLevel = given;
-    oneLevel.levels = 1;
-    oneLevel.coverScreen = true;
-    oneLevel.samplesPerLevel = 4; // replaced by all
-    ScreenIndirectSettings full = oneLevel;
-    full.start = StartResolution::full;
-    full.smooth = false;
-    Runs runs;
-    int done = 0;
-    for (auto [image, settings, allTexels] :
-         {std::tuple{&runs.result, given, false}, std::tuple{&runs.allSamples, given, true},
-          std::tuple{&runs.startSum, oneLevel, true}, std::tuple{&runs.fullSum, full, true}}) {
-        auto run = technique.run(settings, allTexels);
-        if (!run) return run.error();
-        *image = *std::move(run);
-        if (options.progress) options.progress(techniqueShare * double(++done) / 4.0);
+    const double total = double(ablations.size() + 1);
+    const auto progress = [&](size_t done) {
+        if (options.progress) options.progress(techniqueShare * double(done) / total);
+    };
+    auto result = technique.run(*configured);
+    if (!result) return result.error();
+    progress(1);
+    Runs runs{*std::move(result), {}};
+    for (const techniques::Ablation& ablation : ablations) {
+        auto image = technique.run(ablation.without);
+        if (!image) return image.error();
+        runs.steps.push_back({ablation.name, ablation.meaning, *std::move(image)});
+        progress(runs.steps.size() + 1);
     }
     return runs;
 }
 
-Explanation assemble(Runs runs, ScreenEstimates screen, const Image& depth) {
-    std::vector<Step> steps;
-    steps.push_back(
-        {"too few samples", "a level's samples -> every texel of its ring", std::move(runs.allSamples)});
-    steps.push_back({"hierarchy", "levels -> the sum over every texel of the start resolution",
-                     std::move(runs.startSum)});
-    steps.push_back({"start resolution",
-                     "start resolution, smoothing and upsampling -> every pixel's own sum over every pixel",
-                     std::move(runs.fullSum)});
-    steps.push_back({"disc form factor",
-                     "discs at pixel centres -> the exact integral over what the screen shows",
-                     std::move(screen.withoutVisibility)});
+Explanation assemble(Runs runs, const techniques::LastApproximation& last, ScreenEstimates screen,
+                     const Image& depth) {
+    std::vector<Step> steps = std::move(runs.steps);
+    steps.push_back({last.name, last.meaning, std::move(screen.withoutVisibility)});
     steps.push_back({"missing visibility", "whatever lies in between -> only senders that the receiver sees",
                      std::move(screen.withVisibility)});
     steps.push_back({"hidden senders",
@@ -218,7 +175,7 @@ Explanation assemble(Runs runs, ScreenEstimates screen, const Image& depth) {
 
 Result<Explanation> explainError(const lab::Scene& scene, const lab::CameraView& camera,
                                  const ExplainOptions& options) {
-    const Extent2D extent = options.settings.resolution;
+    const Extent2D extent = options.extent;
     const auto frame =
         lab::renderFrame(scene, camera, {.extent = extent, .lightSamples = 64, .threads = options.threads});
     if (!frame) return frame.error();
@@ -230,7 +187,7 @@ Result<Explanation> explainError(const lab::Scene& scene, const lab::CameraView&
     auto screen = estimateFromScreen(scene, camera,
                                      {extent, options.bounces, options.samples, options.threads, progress});
     if (!screen) return screen.error();
-    return assemble(*std::move(runs), *std::move(screen), frame->depth);
+    return assemble(*std::move(runs), options.technique->lastApproximation, *std::move(screen), frame->depth);
 }
 
 } // namespace rebound::explain
