@@ -61,7 +61,7 @@ struct Results {
     std::vector<Point> points;
 };
 
-inline constexpr int resultsFormat = 1; // of results.json and of points
+inline constexpr int resultsFormat = 2; // of results.json and of points
 
 Json toJson(const Times&);
 Json toJson(const metrics::ErrorMetrics&);

@@ -51,6 +51,7 @@ Result<Truth> LabWorkshop::truth(const View& view, const lab::Progress& progress
     if (!traced) return traced.error();
     Truth truth;
     truth.light = std::move(traced->indirect);
+    truth.halves = std::move(traced->indirectHalves);
     truth.visible = frame.depth;
     truth.direct = lab::outgoingRadiance(frame);
     truth.samples = traced->samples;
