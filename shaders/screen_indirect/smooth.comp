@@ -33,7 +33,7 @@ RB_MAIN(pixel, k.extent)
         Real planeDistance = dot(receiver.normal, viewPosition(tapRay, s.z, projection) - position) * inverseWidth;
         float binomial = offset.x * offset.y == 0 ? 2.0f : 1.0f;
         Real cosine = max(dot(receiver.normal, s.normal), Real(0.0f));
-        Real agreement = bilateralWeight(planeDistance * planeDistance, cosine * cosine);
+        Real agreement = bilateralWeight(Real(1.0f), planeApartness(planeDistance * planeDistance), cosine * cosine);
         Real weight = select(s.z > 0.0f, agreement * binomial, Real(0.0f));
         sum += Vec3(light.x, light.y, light.z) * weight;
         total += weight;

@@ -33,6 +33,8 @@ TEST_CASE("bad arguments are refused in one sentence, and leave nothing behind")
         {"render --levels few", {"--levels", "few"}},
         {"render --levels 3 --levels 4", {"--levels"}},
         {"render --samples 3", {"--samples", "256"}},
+        {"render --samples 0", {"--samples is \"0\"; 4 to 256, or all, was expected"}},
+        {"render --samples every", {"--samples is \"every\"", "all"}},
         {"render --radius 0.5", {"--radius", "1024"}},
         {"render --radius nan", {"--radius", "nan"}},
         {"render --radius wide", {"--radius", "wide", "auto"}},

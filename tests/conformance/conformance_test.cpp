@@ -59,6 +59,7 @@ void checkAgreement(const std::vector<NamedCase>& cases) {
 class FaultyPlan : public runner::PreparedPlan {
 public:
     explicit FaultyPlan(std::unique_ptr<runner::PreparedPlan> p) : plan(std::move(p)) {}
+    Result<> setInputs(const runner::PlanInputs& inputs) override { return plan->setInputs(inputs); }
     Result<double> run() override { return plan->run(); }
     const std::vector<PassTiming>& timings() const override { return plan->timings(); }
     MemoryUse memoryUse() const override { return plan->memoryUse(); }

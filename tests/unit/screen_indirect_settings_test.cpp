@@ -39,7 +39,7 @@ TEST_CASE("settings out of their range are named with their value and what was e
     for (int levels : {0, -1, 9, std::numeric_limits<int>::max()})
         checkRefused("; 1 to 8 was expected", [=](Settings& s) { s.levels = levels; });
     checkRefused("settings.levels is 9", [](Settings& s) { s.levels = 9; });
-    for (int samples : {3, 257, -64, 0})
+    for (int samples : {3, 257, -64, 0, wholeRings - 1})
         checkRefused("settings.samplesPerLevel is", [=](Settings& s) { s.samplesPerLevel = samples; });
     for (float radius : {0.99f, 1025.0f, -1.0f, nan, inf})
         checkRefused("settings.ringRadius is", [=](Settings& s) { s.ringRadius = radius; });
@@ -70,6 +70,23 @@ TEST_CASE("settings at the ends of their ranges are accepted") {
                         REQUIRE(plan);
                         CHECK(validate(*plan));
                     }
+}
+
+TEST_CASE("whole rings take every texel of every ring") {
+    ScreenIndirectSettings s;
+    s.resolution = {96, 64};
+    s.ringRadius = 10.0f;
+    s.levels = 2;
+    s.samplesPerLevel = wholeRings;
+    const auto plan = planScreenIndirect(s);
+    REQUIRE(plan);
+    for (auto [level, ring, extent] : {std::tuple{0, Ring{10.0f, true, false}, Extent2D{24, 16}},
+                                       {1, Ring{10.0f, false, true}, Extent2D{12, 8}}}) {
+        const ResourceIndex index = plan->find("gather level " + std::to_string(level) + " ring");
+        REQUIRE(index >= 0);
+        CHECK(plan->resources[size_t(index)].size ==
+              ringTexels(ring, extent).size() * sizeof(detail::RingSample));
+    }
 }
 
 TEST_CASE("a plan's inputs and outputs are the documented ones, at the G-buffer's resolution") {

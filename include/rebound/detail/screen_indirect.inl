@@ -38,8 +38,9 @@ inline Result<> validate(const ScreenIndirectSettings& s) {
         return invalidArgument("settings.resolution is " + toText(s.resolution) + "; 1x1 to " +
                                toText({maximumExtent, maximumExtent}) + " was expected");
     if (s.levels < 1 || s.levels > 8) return invalidArgument(rangeMessage("levels", s.levels, 1, 8));
-    if (s.samplesPerLevel < 4 || s.samplesPerLevel > 256)
-        return invalidArgument(rangeMessage("samplesPerLevel", s.samplesPerLevel, 4, 256));
+    if ((s.samplesPerLevel < 4 || s.samplesPerLevel > 256) && s.samplesPerLevel != wholeRings)
+        return invalidArgument("settings.samplesPerLevel is " + toText(s.samplesPerLevel) +
+                               "; 4 to 256, or wholeRings, was expected");
     if (!(s.ringRadius >= 1.0f && s.ringRadius <= 1024.0f))
         return invalidArgument(rangeMessage("ringRadius", s.ringRadius, 1.0f, 1024.0f));
     if (!(s.minimumCosine >= 0.001f && s.minimumCosine <= 1.0f))

@@ -27,22 +27,32 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
     Real own = dot(n, position);
     Vec2 nearRay = viewRay(camera, (base + Vec2(0.5f)) * coarseScale);
     Vec2 step = Vec2(Real(coarseScale * camera.ray.x), Real(coarseScale * camera.ray.y));
+    Real apartness[4];
+    Real cosine2[4];
+    Real nearest = Real(2e30f); // more than any
+    RB_UNROLL
+    for (int tap = 0; tap < 4; ++tap) {
+        ivec2 offset = ivec2(tap & 1, tap >> 1);
+        Vec4 surface = fetchMagnified(coarseSurfaces, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
+        Real across =
+            n.x * (nearRay.x + step.x * float(offset.x)) + n.y * (nearRay.y + step.y * float(offset.y));
+        Real distance = projection == orthographicProjection ? across + n.z * surface.w - own
+                                                             : (across + n.z) * surface.w - own;
+        Real inTexels = distance * inverseWidth;
+        apartness[tap] = select(surface.w > 0.0f, planeApartness(inTexels * inTexels), Real(4e30f));
+        nearest = min(nearest, apartness[tap]);
+        Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
+        Real cosine = max(dot(n, scaled), Real(0.0f));
+        cosine2[tap] = cosine * cosine * reciprocal(max(dot(scaled, scaled), Real(1.2e-38f)));
+    }
     Vec3 sum = Vec3(0.0f);
     Real total = Real(0.0f);
     RB_UNROLL
     for (int tap = 0; tap < 4; ++tap) {
         ivec2 offset = ivec2(tap & 1, tap >> 1);
-        Vec4 surface = fetchMagnified(coarseSurfaces, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
         Vec4 light = fetchMagnified(coarseLight, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
-        Real across =
-            n.x * (nearRay.x + step.x * float(offset.x)) + n.y * (nearRay.y + step.y * float(offset.y));
-        Real distance = projection == orthographicProjection ? across + n.z * surface.w - own
-                                                             : (across + n.z) * surface.w - own;
-        Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
-        Real cosine = max(dot(n, scaled), Real(0.0f));
-        Real cosine2 = cosine * cosine * reciprocal(max(dot(scaled, scaled), Real(1.2e-38f)));
-        Real inTexels = distance * inverseWidth;
-        Real agreement = select(surface.w > 0.0f, bilateralWeight(inTexels * inTexels, cosine2), Real(0.0f));
+        Real agreement = select(apartness[tap] < 2e30f,
+                                bilateralWeight(nearest, apartness[tap], cosine2[tap]), Real(0.0f));
         Real bilinear = (offset.x == 1 ? fraction.x : Real(1.0f) - fraction.x) *
                         (offset.y == 1 ? fraction.y : Real(1.0f) - fraction.y);
         Real weight = bilinear * agreement;

@@ -7,6 +7,7 @@
 #include "rebound/device.hpp"
 #include "rebound/plan.hpp"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,12 +29,15 @@ enum class FormFactor {
     pointToPoint, // unbounded: bright spots in corners; for comparison   [RR-7162, eq. 1]
 };
 
+// As samplesPerLevel: every texel of every ring. Some hundred times as slow as 64 samples; the yardstick of all patterns.
+inline constexpr int wholeRings = std::numeric_limits<int>::max();
+
 struct ScreenIndirectSettings {
     Extent2D resolution;            // of the G-buffer, 1x1 to 16384x16384 [pixels]
     GBufferConventions conventions; // how the G-buffer is to be read
     StartResolution start = StartResolution::quarter;
     int levels = 4;           // 1 to 8
-    int samplesPerLevel = 64; // 4 to 256
+    int samplesPerLevel = 64; // 4 to 256, or wholeRings
     float ringRadius = 40.0f; // outer radius of every ring, 1 to 1024 [texels of its level]
     bool coverScreen = true;  // the outermost ring has no outer end: it reaches the screen's corners
     Reduction reduction = Reduction::voting;

@@ -13,25 +13,29 @@ public:
         auto program = device.compile(plan);
         if (!program) return program.error();
         auto prepared = std::unique_ptr<CpuPlan>(new CpuPlan(*std::move(program)));
-        const auto scalar =
-            options.precision == Precision::half ? cpu::Scalar::float16 : cpu::Scalar::float32;
+        prepared->scalar = options.precision == Precision::half ? cpu::Scalar::float16 : cpu::Scalar::float32;
         prepared->images.resize(plan.resources.size());
-        for (size_t i = 0; i < plan.resources.size(); ++i) {
-            const Resource& r = prepared->program.plan().resources[i]; // which names are views of
-            HostImage& image = prepared->images[i];
-            if (r.kind == ResourceKind::input) {
-                auto picture = findPicture(plan, inputs, r);
-                if (!picture) return picture.error();
-                image = HostImage(**picture, r.format == Format::r32f ? cpu::Scalar::float32 : scalar);
-            } else if (r.kind == ResourceKind::output) {
-                image = HostImage(r.extent, r.channels, scalar);
-            } else {
-                continue;
-            }
-            prepared->frame.images.push_back({r.name, image.view()});
-        }
-        prepared->frame.constants = inputs.constants;
+        for (size_t i = 0; i < plan.resources.size(); ++i)
+            if (const Resource& r = plan.resources[i]; r.kind == ResourceKind::output)
+                prepared->images[i] = HostImage(r.extent, r.channels, prepared->scalar);
+        if (auto set = prepared->setInputs(inputs); !set) return set.error();
         return std::unique_ptr<PreparedPlan>(std::move(prepared));
+    }
+
+    Result<> setInputs(const PlanInputs& inputs) override {
+        const Plan& plan = program.plan(); // which names are views of
+        if (auto valid = checkInputs(plan, inputs); !valid) return valid;
+        frame = {};
+        for (size_t i = 0; i < plan.resources.size(); ++i) {
+            const Resource& r = plan.resources[i];
+            if (r.kind == ResourceKind::input)
+                images[i] = HostImage(**findPicture(plan, inputs, r),
+                                      r.format == Format::r32f ? cpu::Scalar::float32 : scalar);
+            if (r.kind == ResourceKind::input || r.kind == ResourceKind::output)
+                frame.images.push_back({r.name, images[i].view()});
+        }
+        frame.constants = inputs.constants;
+        return {};
     }
 
     Result<double> run() override {
@@ -76,7 +80,8 @@ private:
     }
 
     cpu::Program program;
-    std::vector<HostImage> images; // by resource; empty where it is none of the host's
+    cpu::Scalar scalar = cpu::Scalar::float16; // of all but depth
+    std::vector<HostImage> images;             // by resource; empty where it is none of the host's
     FrameInputs<cpu::Image> frame;
 };
 

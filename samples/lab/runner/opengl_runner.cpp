@@ -13,26 +13,29 @@ using host::OpenGLTexture;
 
 class OpenGLPlan : public PreparedPlan {
 public:
-    explicit OpenGLPlan(opengl::Program compiled) : program(std::move(compiled)) {}
-
-    Result<> createTextures(const PlanInputs& inputs, Precision precision) {
+    OpenGLPlan(opengl::Program compiled, Precision hostPrecision)
+        : program(std::move(compiled)), precision(hostPrecision) {
         const Plan& plan = program.plan();
         textures.resize(plan.resources.size());
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
-            if (r.kind == ResourceKind::input) {
-                auto picture = findPicture(plan, inputs, r);
-                if (!picture) return picture.error();
-                const Format format = inputFormat(r, precision);
-                lab::Image image = **picture;
-                roundTo(format, image); // as every backend has them, whatever the driver would make of them
-                textures[i] = OpenGLTexture(format, image);
-            } else if (r.kind == ResourceKind::output) {
-                textures[i] = OpenGLTexture(r.format, r.extent);
-            } else {
-                continue;
-            }
+            if (r.kind != ResourceKind::input && r.kind != ResourceKind::output) continue;
+            textures[i] =
+                OpenGLTexture(r.kind == ResourceKind::input ? inputFormat(r, precision) : r.format, r.extent);
             frame.images.push_back({r.name, {textures[i].name()}});
+        }
+    }
+
+    Result<> setInputs(const PlanInputs& inputs) override {
+        const Plan& plan = program.plan();
+        if (auto valid = checkInputs(plan, inputs); !valid) return valid;
+        for (size_t i = 0; i < plan.resources.size(); ++i) {
+            const Resource& r = plan.resources[i];
+            if (r.kind != ResourceKind::input) continue;
+            const Format format = inputFormat(r, precision);
+            lab::Image image = **findPicture(plan, inputs, r);
+            roundTo(format, image); // as every backend has them, whatever the driver would make of them
+            host::writeTexture(textures[i].name(), format, image);
         }
         frame.constants = inputs.constants;
         return {};
@@ -85,6 +88,7 @@ private:
     }
 
     opengl::Program program;
+    Precision precision;
     std::vector<OpenGLTexture> textures; // by resource; none where it is none of the host's
     FrameInputs<opengl::Image> frame;
     double recording = 0; // [ms]
@@ -101,8 +105,8 @@ public:
                                                   const PrepareOptions& options) override {
         auto program = device.compile(plan);
         if (!program) return program.error();
-        auto prepared = std::make_unique<OpenGLPlan>(*std::move(program));
-        if (auto made = prepared->createTextures(inputs, options.precision); !made) return made.error();
+        auto prepared = std::make_unique<OpenGLPlan>(*std::move(program), options.precision);
+        if (auto set = prepared->setInputs(inputs); !set) return set.error();
         return std::unique_ptr<PreparedPlan>(std::move(prepared));
     }
 

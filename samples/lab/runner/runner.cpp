@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/runner/runner.hpp"
 
+#include <algorithm>
+
 namespace rebound::runner {
 
 std::vector<std::string> backendNames() {
@@ -44,6 +46,27 @@ Result<const lab::Image*> findPicture(const Plan& plan, const PlanInputs& inputs
         return &picture.image;
     }
     return invalidArgument("inputs: the plan " + plan.technique + " needs " + r.name);
+}
+
+Result<> checkInputs(const Plan& plan, const PlanInputs& inputs) {
+    for (const Resource& r : plan.resources) {
+        if (r.kind == ResourceKind::input)
+            if (auto picture = findPicture(plan, inputs, r); !picture) return picture.error();
+        if (r.kind != ResourceKind::frameConstants) continue;
+        const auto constants = std::find_if(inputs.constants.begin(), inputs.constants.end(),
+                                            [&](const NamedConstants& c) { return c.name == r.name; });
+        if (constants == inputs.constants.end())
+            return invalidArgument("inputs: the plan " + plan.technique + " needs " + r.name);
+        if (constants->data.size() != r.size)
+            return invalidArgument("inputs: " + r.name + " has " + std::to_string(constants->data.size()) +
+                                   " bytes; " + std::to_string(r.size) + " were expected");
+    }
+    return {};
+}
+
+Result<double> PreparedPlan::runFrame(const PlanInputs& inputs) {
+    if (auto set = setInputs(inputs); !set) return set.error();
+    return run();
 }
 
 Format inputFormat(const Resource& r, Precision precision) {

@@ -34,8 +34,13 @@ class PreparedPlan {
 public:
     virtual ~PreparedPlan() = default;
 
+    // What the host hands in with the frames from now on, until it is replaced. Fails, and keeps what it had, where a
+    // picture or constants are missing or of another size.
+    virtual Result<> setInputs(const PlanInputs&) = 0;
     // Runs one frame. Returns what it took until its outputs were there [ms].
     virtual Result<double> run() = 0;
+    // The next frame of a sequence: setInputs(), then run(), whose time it returns.
+    Result<double> runFrame(const PlanInputs&);
     // Of the last run(), a pass each; empty where the backend cannot tell.
     virtual const std::vector<PassTiming>& timings() const = 0;
     // What recording the last run() took the host, where a GPU then does the work [ms]; nothing on the CPU.
@@ -69,6 +74,7 @@ public:
 
     virtual BackendInfo info() const = 0;
     virtual Result<MemoryUse> memoryUse(const Plan&) const = 0;
+    // Ready to run the first frame, which has those inputs.
     virtual Result<std::unique_ptr<PreparedPlan>> prepare(const Plan&, const PlanInputs&,
                                                           const PrepareOptions&) = 0;
     // What a driver's checks have complained about since they were last asked; asked for with BackendChoice::validation.
@@ -99,6 +105,8 @@ Result<std::unique_ptr<Backend>> createOpenGLBackend(const BackendChoice&);
 
 // The input's picture, or an error that names it.
 Result<const lab::Image*> findPicture(const Plan&, const PlanInputs&, const Resource&);
+// That every input has a picture, and all frame constants their bytes.
+Result<> checkInputs(const Plan&, const PlanInputs&);
 // How GPUs are given an input of the host's.
 Format inputFormat(const Resource&, Precision);
 

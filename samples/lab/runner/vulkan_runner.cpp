@@ -25,9 +25,10 @@ class VulkanPlan : public PreparedPlan {
 public:
     VulkanPlan(const VulkanContext& c, vulkan::Program compiled) : context(c), program(std::move(compiled)) {}
 
-    Result<> createImages(const PlanInputs& inputs, Precision precision) {
+    Result<> createImages(Precision precision) {
         const Plan& plan = program.plan();
         images.resize(plan.resources.size());
+        formats.resize(plan.resources.size());
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
             if (r.kind != ResourceKind::input && r.kind != ResourceKind::output) continue;
@@ -38,9 +39,23 @@ public:
             auto image = VulkanImage::create(context, r.extent, vulkan::vulkanFormat(format), usage);
             if (!image) return image.error();
             images[i] = *std::move(image);
-            if (auto filled = fill(inputs, i, format); !filled) return filled;
+            formats[i] = format;
+            const std::vector<std::byte> zeros(sizeOf(format, r.extent));
+            if (auto filled = fill(i, zeros, VK_IMAGE_LAYOUT_UNDEFINED); !filled) return filled;
             frame.images.push_back(
                 {r.name, {images[i]->view, r.extent, images[i]->format, VK_IMAGE_LAYOUT_GENERAL}});
+        }
+        return {};
+    }
+
+    Result<> setInputs(const PlanInputs& inputs) override {
+        const Plan& plan = program.plan();
+        if (auto valid = checkInputs(plan, inputs); !valid) return valid;
+        for (size_t i = 0; i < plan.resources.size(); ++i) {
+            const Resource& r = plan.resources[i];
+            if (r.kind != ResourceKind::input) continue;
+            const auto texels = texelsOf(**findPicture(plan, inputs, r), formats[i]);
+            if (auto filled = fill(i, texels, VK_IMAGE_LAYOUT_GENERAL); !filled) return filled;
         }
         frame.constants = inputs.constants;
         return {};
@@ -131,9 +146,10 @@ private:
         size_t offset; // in the staging buffers [bytes]
     };
 
-    static size_t sizeOf(const Resource& r) {
-        return bytesPerTexel(r.format) * size_t(r.extent.width) * size_t(r.extent.height);
+    static size_t sizeOf(Format format, Extent2D extent) {
+        return bytesPerTexel(format) * size_t(extent.width) * size_t(extent.height);
     }
+    static size_t sizeOf(const Resource& r) { return sizeOf(r.format, r.extent); }
 
     Result<VkImage> imageToCopy(ResourceIndex index) const {
         if (images[size_t(index)]) return images[size_t(index)]->image;
@@ -151,22 +167,14 @@ private:
         }
     }
 
-    // An input's contents, or zeros.
-    Result<> fill(const PlanInputs& inputs, size_t index, Format format) {
+    // Replaces an image's texels.
+    Result<> fill(size_t index, const std::vector<std::byte>& texels, VkImageLayout before) {
         const Resource& r = program.plan().resources[index];
-        std::vector<std::byte> texels(bytesPerTexel(format) * size_t(r.extent.width) *
-                                      size_t(r.extent.height));
-        if (r.kind == ResourceKind::input) {
-            auto picture = findPicture(program.plan(), inputs, r);
-            if (!picture) return picture.error();
-            texels = texelsOf(**picture, format);
-        }
         auto staging = stagingBuffer(context, texels.size());
         if (!staging) return staging.error();
         std::memcpy((*staging)->mapped, texels.data(), texels.size());
         return context.run([&](VkCommandBuffer commands) -> Result<> {
-            host::recordTransition(commands, images[index]->image, VK_IMAGE_LAYOUT_UNDEFINED,
-                                   VK_IMAGE_LAYOUT_GENERAL);
+            host::recordTransition(commands, images[index]->image, before, VK_IMAGE_LAYOUT_GENERAL);
             host::recordUpload(commands, (*staging)->buffer, 0, images[index]->image, r.extent);
             host::recordFullBarrier(commands);
             return {};
@@ -176,6 +184,7 @@ private:
     const VulkanContext& context;
     vulkan::Program program;
     std::vector<std::unique_ptr<VulkanImage>> images; // by resource; null where it is none of the host's
+    std::vector<Format> formats;                      // of images
     FrameInputs<vulkan::Image> frame;
     std::vector<PassTiming> passTimings;
     double recording = 0; // [ms]
@@ -196,7 +205,8 @@ public:
         auto program = device.compile(plan, {1, nullptr, options.inspectable});
         if (!program) return program.error();
         auto prepared = std::make_unique<VulkanPlan>(context, *std::move(program));
-        if (auto made = prepared->createImages(inputs, options.precision); !made) return made.error();
+        if (auto made = prepared->createImages(options.precision); !made) return made.error();
+        if (auto set = prepared->setInputs(inputs); !set) return set.error();
         return std::unique_ptr<PreparedPlan>(std::move(prepared));
     }
 

@@ -3,11 +3,9 @@
 
 #include "lab/scenes/camera_matrices.hpp"
 #include "lab/techniques/draft_values.hpp"
-#include "rebound/math/rings.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace rebound::techniques {
 
@@ -30,9 +28,8 @@ std::string presetOf(const Draft& draft) {
 
 // planScreenIndirect()'s errors, with options' names.
 Error renamed(Error error, Spelling spelling) {
-    constexpr std::array<std::pair<std::string_view, const char*>, 5> options{{
+    constexpr std::array<std::pair<std::string_view, const char*>, 4> options{{
         {"settings.levels", "levels"},
-        {"settings.samplesPerLevel", "samples"},
         {"settings.ringRadius", "radius"},
         {"settings.minimumCosine", "minimum-cosine"},
         {"settings.onlyLevel", "only-level"},
@@ -41,6 +38,20 @@ Error renamed(Error error, Spelling spelling) {
         if (error.message.starts_with(setting))
             error.message.replace(0, setting.size(), spelled(option, spelling));
     return error;
+}
+
+void replaceSamples(ScreenIndirectSettings& settings, DraftValues& values) {
+    const std::string* text = values.find("samples");
+    if (!text) return;
+    const auto samples = *text == "all" ? std::optional<int>(wholeRings) : parseNumber<int>(*text);
+    const bool isSetting = samples && ((*samples >= 4 && *samples <= 256) || *samples == wholeRings);
+    values.take(settings.samplesPerLevel,
+                isSetting ? Result<int>(*samples)
+                          : unexpected(values.called("samples"), *text, "4 to 256, or all,"));
+}
+
+std::string samplesText(const ScreenIndirectSettings& s) {
+    return s.samplesPerLevel == wholeRings ? "all" : std::to_string(s.samplesPerLevel);
 }
 
 // After all other settings, on which the covering radius depends.
@@ -67,7 +78,7 @@ Result<ScreenIndirectSettings> settingsOf(const Draft& draft, const View& view, 
     values.replaceByName<bool>(settings.smooth, "smooth", switchNames);
     values.replaceByName<bool>(settings.coverScreen, "cover-screen", switchNames);
     values.replaceByNumber(settings.levels, "levels", "a whole number, 1 to 8,");
-    values.replaceByNumber(settings.samplesPerLevel, "samples", "a whole number, 4 to 256,");
+    replaceSamples(settings, values);
     values.replaceByNumber(settings.minimumCosine, "minimum-cosine", "a number, 0.001 to 1,");
     if (values.find("only-level")) {
         settings.onlyLevel = 0;
@@ -83,7 +94,8 @@ Json toJson(const ScreenIndirectSettings& s, const std::string& preset) {
     json["preset"] = preset;
     json["start"] = nameIn<StartResolution>(startNames, s.start);
     json["levels"] = s.levels;
-    json["samples_per_level"] = s.samplesPerLevel;
+    if (s.samplesPerLevel == wholeRings) json["samples_per_level"] = "all";
+    else json["samples_per_level"] = s.samplesPerLevel;
     json["ring_radius_texels"] = s.ringRadius;
     json["reduction"] = nameIn<Reduction>(reductionNames, s.reduction);
     json["form_factor"] = nameIn<FormFactor>(formFactorNames, s.formFactor);
@@ -102,8 +114,7 @@ std::string shortNumber(float value) {
 
 // half-64, quarter-64-5 nearest: what is the presets' is not said.
 std::string nameOf(const ScreenIndirectSettings& s) {
-    std::string name =
-        std::string(nameIn<StartResolution>(startNames, s.start)) + "-" + std::to_string(s.samplesPerLevel);
+    std::string name = std::string(nameIn<StartResolution>(startNames, s.start)) + "-" + samplesText(s);
     const auto usual = screenIndirectPreset(usualPreset, s.resolution);
     if (s.levels != 4) name.append("-").append(std::to_string(s.levels));
     if (s.reduction != Reduction::voting)
@@ -122,9 +133,8 @@ std::string nameOf(const ScreenIndirectSettings& s) {
 std::string describe(const ScreenIndirectSettings& s, const std::string& preset) {
     std::string text = preset + ": from " + nameIn<StartResolution>(startNames, s.start) + " resolution, " +
                        std::to_string(s.levels) + (s.levels == 1 ? " level, " : " levels, ") +
-                       std::to_string(s.samplesPerLevel) + " samples a level, ring radius " +
-                       shortNumber(s.ringRadius) + " texels, " +
-                       nameIn<Reduction>(reductionNames, s.reduction) + ", form factor " +
+                       samplesText(s) + " samples a level, ring radius " + shortNumber(s.ringRadius) +
+                       " texels, " + nameIn<Reduction>(reductionNames, s.reduction) + ", form factor " +
                        nameIn<FormFactor>(formFactorNames, s.formFactor) + ", minimum cosine " +
                        shortNumber(s.minimumCosine);
     if (!s.coverScreen) text += ", not covering the screen";
@@ -160,57 +170,25 @@ Result<Configured> parse(const Draft& draft, const View& view, Spelling spelling
     return result;
 }
 
-// Makes every level gather every texel of its ring.
-Result<> gatherAllTexels(Plan& plan, const ScreenIndirectSettings& settings) {
-    for (int level = 0; level < settings.levels; ++level) {
-        const std::string label = "gather level " + std::to_string(level);
-        const ResourceIndex ring = plan.find(label + " ring");
-        const ResourceIndex constants = plan.find(label + " constants");
-        const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                       [&](const Pass& p) { return p.label == label; });
-        if (ring < 0 || constants < 0 || pass == plan.passes.end())
-            return Error{ErrorCode::unsupported,
-                         "the plan has no pass \"" + label + "\" with a ring of its own"};
-        const bool open = settings.coverScreen && level == settings.levels - 1;
-        std::vector<detail::RingSample> samples;
-        for (const RingTexel& texel : ringTexels({settings.ringRadius, level == 0, open}, pass->grid))
-            samples.push_back({texel.offset, texel.weight, 0.0f});
-        if (samples.empty()) continue;
-        plan.resources[size_t(ring)] = bufferResource(label + " ring", samples);
-        detail::GatherConstants values;
-        std::vector<std::byte>& bytes = plan.resources[size_t(constants)].data;
-        std::memcpy(&values, bytes.data(), sizeof values);
-        values.extent.z = int(samples.size());
-        std::memcpy(bytes.data(), &values, sizeof values);
-    }
-    return {};
-}
-
-Result<Configured> withAllTexels(const ScreenIndirectSettings& settings, const std::string& preset) {
-    auto result = configured(settings, preset);
-    if (!result) return result;
-    if (auto changed = gatherAllTexels(result->plan, settings); !changed) return changed.error();
-    return result;
-}
-
 Result<std::vector<Ablation>> ablations(const Draft& draft, const View& view) {
     const auto given = settingsOf(draft, view, Spelling::options);
     if (!given) return given.error();
-    ScreenIndirectSettings oneLevel = *given;
+    ScreenIndirectSettings allSamples = *given;
+    allSamples.samplesPerLevel = wholeRings;
+    ScreenIndirectSettings oneLevel = allSamples;
     oneLevel.levels = 1;
     oneLevel.coverScreen = true;
-    oneLevel.samplesPerLevel = 4; // replaced by all
     ScreenIndirectSettings full = oneLevel;
     full.start = StartResolution::full;
     full.smooth = false;
     std::vector<Ablation> steps;
     for (const auto& [name, meaning, settings] :
-         {std::tuple{"too few samples", "a level's samples -> every texel of its ring", *given},
+         {std::tuple{"too few samples", "a level's samples -> every texel of its ring", allSamples},
           std::tuple{"hierarchy", "levels -> the sum over every texel of the start resolution", oneLevel},
           std::tuple{"start resolution",
                      "start resolution, smoothing and upsampling -> every pixel's own sum over every pixel",
                      full}}) {
-        auto without = withAllTexels(settings, presetOf(draft));
+        auto without = configured(settings, presetOf(draft));
         if (!without) return without.error();
         steps.push_back({name, meaning, *std::move(without)});
     }
@@ -229,7 +207,7 @@ std::vector<Option> options() {
          "outer radius of every ring [texels of its level], 1 to 1024; auto: the\n"
          "smallest with which the outermost ring covers the screen\n"
          "(presets: 40 at 720 rows, in proportion elsewhere)"},
-        {"samples", "N", "samples a pixel and level, 4 to 256"},
+        {"samples", "N", "samples a pixel and level, 4 to 256; all: every texel of every ring"},
         {"reduce", "HOW",
          "which texel lends a coarser one its place and normal: nearest to the eye,\n"
          "or by voting (presets: voting)"},

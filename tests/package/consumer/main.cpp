@@ -3,9 +3,9 @@
 // A frame of indirect light on the CPU, through Rebound's public surface alone. Exit status 0: the light is
 // right as far as can be said without a reference; 1: it is not; 2: the processor does not run that
 // instruction set.
-#include <rebound/cpu/device.hpp>
+#include "indirect_light.hpp"
+
 #include <rebound/shaders.hpp>
-#include <rebound/techniques/screen_indirect.hpp>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -33,9 +33,12 @@ constexpr size_t pixelCount = size_t(extent.width) * size_t(extent.height);
 // A dark floor 1 m below the eye, and 4 m ahead a wall that sends out radiance 1.
 struct Room {
     Camera camera;
-    std::vector<float> depth, normal, radiance, indirect;
+    std::vector<float> depth, normal, radiance, albedo, lit, composed;
 
-    Room() : depth(pixelCount), normal(3 * pixelCount), radiance(3 * pixelCount), indirect(3 * pixelCount) {
+    // A picture in which nothing is lit yet, and surfaces reflect everything: what is added is the light itself.
+    Room()
+        : depth(pixelCount), normal(3 * pixelCount), radiance(3 * pixelCount), albedo(3 * pixelCount, 1.0f),
+          lit(3 * pixelCount), composed(3 * pixelCount) {
         camera.projection = glm::perspective(glm::radians(60.0f), 16.0f / 9.0f, 0.1f, 100.0f);
         const float slope = std::tan(glm::radians(30.0f));
         for (int y = 0; y < extent.height; ++y)
@@ -56,22 +59,10 @@ int fail(const std::string& message) {
 }
 
 Result<> light(Room& room, const cpu::Device& device) {
-    ScreenIndirectSettings settings;
-    settings.resolution = extent;
-    settings.compose = false;
-    auto plan = planScreenIndirect(settings);
-    if (!plan) return plan.error();
-    auto program = device.compile(*plan);
-    if (!program) return program.error();
-    ScreenIndirectFrame<cpu::Image> frame;
-    frame.camera = room.camera;
-    frame.depth = cpu::interleavedImage(room.depth.data(), extent, 1);
-    frame.normal = cpu::interleavedImage(room.normal.data(), extent, 3);
-    frame.radiance = cpu::interleavedImage(room.radiance.data(), extent, 3);
-    frame.indirect = cpu::interleavedImage(room.indirect.data(), extent, 3);
-    auto inputs = screenIndirectInputs(settings, frame);
-    if (!inputs) return inputs.error();
-    return program->record(*inputs);
+    auto indirectLight = IndirectLight::create(device, extent);
+    if (!indirectLight) return indirectLight.error();
+    return indirectLight->add(room.camera, {room.depth.data(), room.normal.data(), room.radiance.data(),
+                                            room.albedo.data(), room.lit.data(), room.composed.data()});
 }
 
 // Halves an image with the consumer's own kernel.
@@ -99,10 +90,10 @@ Result<std::vector<float>> halve(std::vector<float> whole, const cpu::Device& de
 // The wall, seen by the floor only, lights it with less than its own radiance; nothing lights the wall.
 bool isPlausible(const Room& room) {
     float brightest = 0.0f;
-    for (size_t i = 0; i < room.indirect.size(); ++i) {
-        if (!std::isfinite(room.indirect[i])) return false;
+    for (size_t i = 0; i < room.composed.size(); ++i) {
+        if (!std::isfinite(room.composed[i])) return false;
         const bool floor = room.radiance[i] == 0.0f;
-        if (floor) brightest = std::max(brightest, room.indirect[i]);
+        if (floor) brightest = std::max(brightest, room.composed[i]);
     }
     return brightest > 0.0f && brightest <= 1.0f;
 }
@@ -122,10 +113,10 @@ int main(int count, char** arguments) {
     if (auto lit = light(room, *device); !lit) return fail(lit.error().message);
     if (!isPlausible(room))
         return fail("the floor's light is not finite, or is zero or brighter than the wall");
-    auto half = halve(room.indirect, *device);
+    auto half = halve(room.composed, *device);
     if (!half) return fail(half.error().message);
     for (size_t i = 0; i < half->size(); ++i)
-        if ((*half)[i] != 0.5f * room.indirect[i]) return fail("the consumer's own kernel does not halve");
+        if ((*half)[i] != 0.5f * room.composed[i]) return fail("the consumer's own kernel does not halve");
     if (techniqueShaders().empty() || consumerShaders().size() != 1) return fail("shaders are missing");
     std::printf("isa %s\n", cpu::name(device->isa()));
     return 0;
