@@ -9,6 +9,7 @@
 #include "pictures.hpp"
 #include "reference_render.hpp"
 #include "report.hpp"
+#include "sequence_render.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -27,6 +28,7 @@ struct RenderOptions {
     SourceOptions source;
     TechniqueOptions technique;
     ReferenceOptions reference;
+    SequenceChoice sequence;
     DeviceChoice device;
     std::string out = "out";
 };
@@ -128,7 +130,8 @@ Result<> checkOptions(const CLI::App& app, const RenderOptions& options) {
         const std::string name = option->get_lnames().empty() ? "" : option->get_lnames()[0];
         const bool ignored = traced ? options.technique.draft.contains(name) ||
                                           (option->get_group() == deviceGroup && name != "threads") ||
-                                          name == "frame" || name == "light-samples"
+                                          option->get_group() == sequenceGroup || name == "frame" ||
+                                          name == "light-samples"
                                     : option->get_group() == referenceGroup;
         if (option->count() > 0 && ignored)
             return invalidArgument("--" + name + " was given, which --technique " + options.technique.name +
@@ -146,6 +149,11 @@ Result<> renderChosen(const CLI::App& app, const RenderOptions& options) {
     if (options.technique.name == reference)
         return renderReference(options.source, options.technique.size, options.device.threads,
                                options.reference, options.out);
+    if (options.sequence.isAsked())
+        return renderSequence(options.source, options.technique, options.device, options.sequence,
+                              options.out);
+    if (options.sequence.path || options.sequence.framesPerSecond)
+        return invalidArgument("--frames is missing; --path and --fps need a number of frames");
     return render(options);
 }
 
@@ -162,6 +170,7 @@ Command addRenderCommand(CLI::App& program) {
         ->group(techniqueGroup);
     addTechniqueOptions(*app, options->technique);
     addReferenceOptions(*app, options->reference);
+    addSequenceOptions(*app, options->sequence);
     addDeviceOptions(*app, options->device);
     excludeSceneOptionsFromFrames(*app);
     app->add_option("--out", options->out,
@@ -187,7 +196,8 @@ Command addRenderCommand(CLI::App& program) {
         "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
         "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
         "  rebound render builtin:cornell --technique reference --size 320x180 --bounces 1 --error 0.01\n"
-        "  rebound render --frame captured --preset half-256 --precision float");
+        "  rebound render --frame captured --preset half-256 --precision float\n"
+        "  rebound render builtin:street --frames 150 --size 640x360 --out walk");
     return [app, options] { return exitCodeOf(renderChosen(*app, *options)); };
 }
 

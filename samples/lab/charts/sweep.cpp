@@ -2,8 +2,8 @@
 #include "lab/charts/sweep.hpp"
 
 #include "lab/charts/embedded_text.hpp"
-#include "lab/charts/json_reader.hpp"
 #include "lab/files/file_bytes.hpp"
+#include "lab/files/json_reader.hpp"
 #include "lab/files/json_text.hpp"
 #include "lab/measure/run_values.hpp"
 
@@ -13,6 +13,14 @@
 namespace rebound::charts {
 
 namespace {
+
+using lab::arrayOf;
+using lab::checkKeys;
+using lab::integerOf;
+using lab::member;
+using lab::numberOf;
+using lab::refuseValue;
+using lab::textOf;
 
 using Value = nlohmann::json;
 

@@ -21,19 +21,36 @@ size_t limitToRange(lab::Image& image) {
 
 } // namespace
 
+Result<runner::PlanInputs> FramePipeline::inputsOf(const lab::Frame& frame) {
+    outgoing = lab::outgoingRadiance(frame);
+    limited = limitToRange(outgoing);
+    return configured.inputs(frame, outgoing);
+}
+
+// As the technique got it.
+void FramePipeline::roundOutgoing() {
+    if (precision == runner::Precision::half) runner::roundTo(Format::rgba16f, outgoing);
+}
+
 Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, techniques::Configured technique,
                                             runner::Backend& backend, runner::Precision precision) {
     FramePipeline pipeline;
     pipeline.configured = std::move(technique);
-    pipeline.outgoing = lab::outgoingRadiance(frame);
-    pipeline.limited = limitToRange(pipeline.outgoing);
-    auto inputs = pipeline.configured.inputs(frame, pipeline.outgoing);
+    pipeline.precision = precision;
+    auto inputs = pipeline.inputsOf(frame);
     if (!inputs) return inputs.error();
     auto prepared = backend.prepare(pipeline.configured.plan, *inputs, {precision, false});
     if (!prepared) return prepared.error();
     pipeline.prepared = *std::move(prepared);
-    if (precision == runner::Precision::half) runner::roundTo(Format::rgba16f, pipeline.outgoing);
+    pipeline.roundOutgoing();
     return pipeline;
+}
+
+Result<> FramePipeline::setFrame(const lab::Frame& frame) {
+    auto inputs = inputsOf(frame);
+    if (!inputs) return inputs.error();
+    roundOutgoing();
+    return prepared->setInputs(*inputs);
 }
 
 } // namespace rebound::measure

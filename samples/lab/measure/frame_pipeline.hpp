@@ -14,6 +14,9 @@ public:
     static Result<FramePipeline> create(const lab::Frame&, techniques::Configured, runner::Backend&,
                                         runner::Precision);
 
+    // The next frame of a sequence, of the same size and projection.
+    Result<> setFrame(const lab::Frame&);
+
     // Runs one frame. Returns what it took [ms].
     Result<double> run() { return prepared->run(); }
 
@@ -28,7 +31,11 @@ public:
     Result<lab::Image> composed() const { return prepared->read("composed"); } // direct + albedo * indirect
 
 private:
+    Result<runner::PlanInputs> inputsOf(const lab::Frame&);
+    void roundOutgoing();
+
     techniques::Configured configured;
+    runner::Precision precision = runner::Precision::half;
     std::unique_ptr<runner::PreparedPlan> prepared;
     lab::Image outgoing;
     size_t limited = 0;

@@ -92,8 +92,8 @@ void addRoom(Study& s) {
 
 void addCurtains(Study& s) {
     const WallPlane plane{{-halfX + 0.12f, 0, -0.05f}, {0, 0, -1}, {1, 0, 0}};
-    addDrape(s.curtain, plane, {0.88f, 0.42f, 2.28f, 0.12f, 5.0f, 0.4f});
-    addDrape(s.curtain, plane, {-0.88f, 0.42f, 2.28f, 0.12f, 5.0f, 2.0f});
+    addDrape(s.curtain, plane, {0.88f, 0.42f, 2.28f, 0.12f, 2.0f, 0.4f});
+    addDrape(s.curtain, plane, {-0.88f, 0.42f, 2.28f, 0.12f, 2.0f, 2.0f});
     s.brass.rod({-halfX + 0.12f, 2.3f, -1.25f}, {-halfX + 0.12f, 2.3f, 1.15f}, 0.012f, 10);
 }
 

@@ -66,19 +66,16 @@ void addVault(MeshBuilder& mesh, float radius, float thickness, float from, floa
         const glm::vec2 innerA = arc(radius, a), innerB = arc(radius, b);
         const glm::vec2 outerA = arc(radius + thickness, a), outerB = arc(radius + thickness, b);
         const auto at = [&](const glm::vec2& p, float z) { return glm::vec3(p.x, p.y, z); };
-        for (const auto& quad : {std::array<glm::vec3, 4>{at(innerA, back), at(innerB, back),
-                                                          at(innerB, frontZ), at(innerA, frontZ)},
-                                 std::array<glm::vec3, 4>{at(outerA, frontZ), at(outerB, frontZ),
-                                                          at(outerB, back), at(outerA, back)},
-                                 std::array<glm::vec3, 4>{at(innerA, frontZ), at(innerB, frontZ),
-                                                          at(outerB, frontZ), at(outerA, frontZ)},
-                                 std::array<glm::vec3, 4>{at(outerA, back), at(outerB, back),
-                                                          at(innerB, back), at(innerA, back)},
-                                 std::array<glm::vec3, 4>{at(innerA, frontZ), at(outerA, frontZ),
-                                                          at(outerA, back), at(innerA, back)},
-                                 std::array<glm::vec3, 4>{at(outerB, frontZ), at(innerB, frontZ),
-                                                          at(innerB, back), at(outerB, back)}})
-            mesh.face(quad);
+        const auto quad = [&](const glm::vec3& p, const glm::vec3& q, const glm::vec3& r,
+                              const glm::vec3& t) {
+            mesh.face(std::array<glm::vec3, 4>{p, q, r, t});
+        };
+        quad(at(innerA, frontZ), at(innerB, frontZ), at(innerB, back), at(innerA, back));
+        quad(at(outerA, back), at(outerB, back), at(outerB, frontZ), at(outerA, frontZ));
+        quad(at(outerA, frontZ), at(outerB, frontZ), at(innerB, frontZ), at(innerA, frontZ));
+        quad(at(innerA, back), at(innerB, back), at(outerB, back), at(outerA, back));
+        quad(at(innerA, back), at(outerA, back), at(outerA, frontZ), at(innerA, frontZ));
+        quad(at(outerB, back), at(innerB, back), at(innerB, frontZ), at(outerB, frontZ));
     }
 }
 

@@ -79,7 +79,27 @@ GltfOptions momentOf(GltfOptions options, const SceneMoment& moment) {
     options.animation = moment.animation.value_or(options.animation);
     options.time = moment.time.value_or(options.time);
     options.animate = options.animate || moment.animation || moment.time;
+    options.moved = moment.moved;
     return options;
+}
+
+// Moves all meshes of each name.
+void moveMeshes(Scene& scene, const std::map<std::string, glm::mat4>& moved) {
+    for (const auto& [name, place] : moved) {
+        bool isKnown = false;
+        for (Mesh& mesh : scene.meshes) {
+            if (mesh.name != name) continue;
+            isKnown = true;
+            for (glm::vec3& position : mesh.positions)
+                position = glm::vec3(place * glm::vec4(position, 1.0f));
+            for (glm::vec3& normal : mesh.normals) normal = glm::normalize(glm::mat3(place) * normal);
+        }
+        if (isKnown) continue;
+        std::string known;
+        for (const Mesh& mesh : scene.meshes) known += (known.empty() ? "'" : ", '") + mesh.name + "'";
+        refuse("there is no mesh '" + name + "' to move in the scene; there are " + known,
+               ErrorCode::notFound);
+    }
 }
 
 Scene readScene(const std::string& name, const std::filesystem::path& viewFile, const SceneMoment& moment) {
@@ -88,6 +108,7 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile, 
             refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
                    ErrorCode::invalidArgument);
         Scene scene = makeBuiltin(name.substr(builtinPrefix.size()));
+        moveMeshes(scene, moment.moved);
         if (!viewFile.empty()) orRefuse(applyViewFile(viewFile, scene));
         return scene;
     }

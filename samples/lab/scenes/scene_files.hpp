@@ -5,6 +5,7 @@
 #include "lab/scenes/scene.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct GltfOptions {
     std::string animation; // a clip's name; empty: the first, if there is one
     float time = 0.0f;     // of that clip [s]; past its end it holds the last pose
     bool animate = false;  // false: the file's rest pose
+    // Of nodes by name: where each is and what is below it, by a transform in world space on top of the pose.
+    std::map<std::string, glm::mat4> moved = {};
 };
 
 // Reads .gltf or .glb (2.0): node transforms, base colour with textures and alpha mask, emission with
@@ -35,6 +38,8 @@ Result<GltfOptions> readViewAnimation(const std::filesystem::path&);
 struct SceneMoment {
     std::optional<std::string> animation; // a clip's name
     std::optional<float> time;            // of that clip [s]
+    // Of glTF nodes, or of a built-in scene's meshes, by name: a transform in world space on top of that.
+    std::map<std::string, glm::mat4> moved = {};
 };
 
 // A scene file, or one of builtinScenes(), which have no animation. With an empty viewFile, the view.json

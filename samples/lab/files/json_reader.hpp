@@ -4,6 +4,7 @@
 
 #include "lab/files/input_error.hpp"
 
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace rebound::charts {
+namespace rebound::lab {
 
 // Short enough for a sentence.
 inline std::string shortText(const nlohmann::json& value) {
@@ -20,16 +21,16 @@ inline std::string shortText(const nlohmann::json& value) {
     return text;
 }
 
-// All of these throw lab::InputError; `where` is the path to the value, such as reference.samples.
+// All of these throw InputError; `where` is the path to the value, such as reference.samples.
 [[noreturn]] inline void refuseValue(const std::string& where, const nlohmann::json& value,
                                      const std::string& expected) {
-    lab::refuse(where + " is " + shortText(value) + "; " + expected + " was expected");
+    refuse(where + " is " + shortText(value) + "; " + expected + " was expected");
 }
 
 inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key,
                                     const std::string& where) {
     const auto found = object.find(key);
-    if (found == object.end()) lab::refuse(where + " is missing");
+    if (found == object.end()) refuse(where + " is missing");
     return *found;
 }
 
@@ -40,8 +41,8 @@ inline void checkKeys(const nlohmann::json& object, const std::string& where,
     for (const std::string& key : known) list += (list.empty() ? "" : ", ") + key;
     for (const auto& [key, value] : object.items())
         if (std::find(known.begin(), known.end(), key) == known.end())
-            lab::refuse((where.empty() ? "" : where + ": ") + "the key " + shortText(nlohmann::json(key)) +
-                        " is unknown; some of " + list + " were expected");
+            refuse((where.empty() ? "" : where + ": ") + "the key " + shortText(nlohmann::json(key)) +
+                   " is unknown; some of " + list + " were expected");
 }
 
 inline std::string textOf(const nlohmann::json& value, const std::string& where) {
@@ -66,9 +67,17 @@ inline int integerOf(const nlohmann::json& value, const std::string& where, int 
     return value.get<int>();
 }
 
+inline glm::vec3 vectorOf(const nlohmann::json& value, const std::string& where, double most) {
+    if (!value.is_array() || value.size() != 3) refuseValue(where, value, "three numbers");
+    glm::vec3 vector;
+    for (int i = 0; i < 3; ++i)
+        vector[i] = float(numberOf(value[size_t(i)], where + "[" + std::to_string(i) + "]", -most, most));
+    return vector;
+}
+
 inline const nlohmann::json& arrayOf(const nlohmann::json& value, const std::string& where) {
     if (!value.is_array() || value.empty()) refuseValue(where, value, "an array that is not empty");
     return value;
 }
 
-} // namespace rebound::charts
+} // namespace rebound::lab
