@@ -292,8 +292,10 @@ void addTower(Street& s) {
     for (const float x : {-2.6f, -0.6f, 1.4f})
         s.pane.box(foot + glm::vec3(x, 19.5f, 3.9f), foot + glm::vec3(x + 1.2f, 24.0f, 4.04f));
     s.wood.box(foot + glm::vec3(-1.2f, 0, 3.9f), foot + glm::vec3(1.2f, 4.2f, 4.1f));
-    const std::array<glm::vec2, 4> spire = {glm::vec2(0, 26.0f), {5.7f, 26.0f}, {0.12f, 42.0f}, {0, 42.2f}};
-    s.roof.revolve(spire, foot, 4);
+    const std::array<glm::vec2, 4> spire = {glm::vec2(0, 26.0f), {4.9f, 26.0f}, {0.12f, 42.0f}, {0, 42.2f}};
+    s.roof.place(placedAt(foot, 22.5f));
+    s.roof.revolve(spire, glm::vec3(0.0f), 8);
+    s.roof.place(glm::mat4(1.0f));
     s.walls[2]->box(foot + glm::vec3(4, 0, -26), foot + glm::vec3(16, 11, -2));
     const std::array<glm::vec3, 3> east = {foot + glm::vec3(16.4f, 11, -1.6f),
                                            foot + glm::vec3(3.6f, 11, -1.6f),
@@ -339,7 +341,7 @@ void addHills(Street& s) {
                     },
                     {1, 1});
     }
-    s.meadow.box({-420.0f, -1.2f, -560.0f}, {420.0f, -0.6f, -108.0f});
+    s.meadow.box({-420.0f, -1.2f, -560.0f}, {420.0f, -0.32f, 60.0f});
 }
 
 // What a path may move: a delivery van.

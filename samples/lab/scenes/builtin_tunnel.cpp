@@ -106,6 +106,7 @@ void addShell(Tunnel& t) {
     for (int i = 0; i < 6; ++i) {
         const float z = 1.0f - 8.0f * static_cast<float>(i);
         addVault(t.concrete, halfWidth - 0.14f, 0.14f, 0.0f, low - 0.02f, z - 0.25f, z + 0.25f);
+        addVault(t.concrete, halfWidth - 0.14f, 0.14f, high + 0.02f, pi, z - 0.25f, z + 0.25f);
         for (const float side : {-1.0f, 1.0f}) {
             const float a = side * (w - 0.14f), b = side * w;
             t.concrete.box({std::min(a, b), side > 0 ? bottom : -0.35f, z - 0.25f},
