@@ -4,7 +4,6 @@
 #include "lab/conformance/gbuffer.hpp"
 #include "lab/rays/frame.hpp"
 #include "lab/runner/texels.hpp"
-#include "lab/scenes/camera_matrices.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <algorithm>
@@ -86,7 +85,8 @@ void makeBlack(GBuffer& g, Random&) {
     std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f);
 }
 
-Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D extent) {
+Result<Case> sceneCase(const std::string& name, const techniques::Technique& technique,
+                       const techniques::Draft& draft, Extent2D extent) {
     auto scene = lab::loadScene(name);
     if (!scene) return scene.error();
     auto view = lab::findCamera(*scene, "");
@@ -96,19 +96,21 @@ Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D ext
     options.lightSamples = 4; // noise is as good a test as its absence
     auto frame = lab::renderFrame(*scene, *view, options);
     if (!frame) return frame.error();
-    auto settings = screenIndirectPreset(preset, extent);
-    if (!settings) return settings.error();
+    auto configured = technique.parse(draft, techniques::viewOf(*frame), techniques::Spelling::options);
+    if (!configured) return configured.error();
     const lab::Image outgoing = lab::outgoingRadiance(*frame);
-    return caseOf({*settings,
-                   {lab::cameraMatrices(*view, extent),
-                    frame->depth,
-                    frame->normal,
-                    outgoing,
-                    frame->albedo,
-                    outgoing,
-                    {},
-                    {}}},
-                  Precision::half);
+    auto inputs = configured->inputs(*frame, outgoing);
+    if (!inputs) return inputs.error();
+    Case result{std::move(configured->plan), *std::move(inputs), Precision::half, 0};
+    for (const float value : outgoing.data) result.largestRadiance = std::max(result.largestRadiance, value);
+    return result;
+}
+
+std::string toText(const techniques::Draft& draft) {
+    std::string text;
+    for (const auto& [option, value] : draft)
+        text += " " + (option == "preset" ? value : option + " " + value);
+    return text;
 }
 
 } // namespace
@@ -143,13 +145,14 @@ std::vector<NamedCase> hardCases() {
             hardCase("one hot pixel", usual, plain, oneHotPixel)};
 }
 
-std::vector<NamedCase> sceneCases() {
+std::vector<NamedCase> sceneCases(const techniques::Technique& technique) {
     constexpr Extent2D extent{320, 180};
     std::vector<NamedCase> cases;
-    for (const char* scene : {"builtin:atrium", "builtin:cornell"})
-        for (const char* preset : {"quarter-64", "half-256-5"})
-            cases.push_back(
-                {std::string(scene) + " " + preset, [=] { return sceneCase(scene, preset, extent); }});
+    for (const std::string scene : {"builtin:atrium", "builtin:cornell"})
+        for (const techniques::Draft& draft : technique.examples)
+            cases.push_back({scene + toText(draft), [scene, &technique, draft] {
+                                 return sceneCase(scene, technique, draft, extent);
+                             }});
     return cases;
 }
 
