@@ -14,11 +14,12 @@ inline Vec2 pixelCenter(Pixel p) {
 struct Texture {
     float* plane[4];
     int width, height, channels;
+    bool holdsHalves;
     ptrdiff_t rowStride; // [floats]
 
     Texture() = default;
     explicit Texture(const Binding& b)
-        : width(b.width), height(b.height), channels(b.channels),
+        : width(b.width), height(b.height), channels(b.channels), holdsHalves(b.holdsHalves),
           rowStride(b.rowStride / ptrdiff_t(sizeof(float))) {
         for (int c = 0; c < 4; ++c)
             plane[c] = static_cast<float*>(b.data) +
@@ -82,10 +83,11 @@ inline Vec4 fetchAt(const Texture& t, IVec2 at) {
 // Lanes beyond the right side land in the padding; the backend clears it when the row is done.
 inline void store(const Texture& t, Pixel p, const Vec4& v) {
     const ptrdiff_t i = t.index(p.x, p.y);
-    storeLanes(t.plane[0] + i, v.x);
-    if (t.channels > 1) storeLanes(t.plane[1] + i, v.y);
-    if (t.channels > 2) storeLanes(t.plane[2] + i, v.z);
-    if (t.channels > 3) storeLanes(t.plane[3] + i, v.w);
+    const auto stored = [&](Real a) { return t.holdsHalves ? withinHalves(a) : a; };
+    storeLanes(t.plane[0] + i, stored(v.x));
+    if (t.channels > 1) storeLanes(t.plane[1] + i, stored(v.y));
+    if (t.channels > 2) storeLanes(t.plane[2] + i, stored(v.z));
+    if (t.channels > 3) storeLanes(t.plane[3] + i, stored(v.w));
 }
 
 // The host's image, in whatever layout the host keeps it.
@@ -115,6 +117,7 @@ struct HostImage {
     }
     void storeLanesOf(int channel, Pixel p, Real v) const {
         if (channel >= image.channels) return;
+        if (image.holdsHalves) v = withinHalves(v);
         if (contiguous() && p.x + laneCount <= image.width) {
             char* to = address(channel, p.x, p.y);
             if (image.isHalf) storeHalves(reinterpret_cast<uint16_t*>(to), v);
