@@ -29,7 +29,7 @@ inline uint16_t floatToHalf(float f) {
 #else
 #define RB_UNROLL
 #endif
-#define RB_TEXTURE_ARGUMENT const Texture&
+#define RB_TEXTURE_ARGUMENT const TextureOfAnySize&
 
 template <int id>
 struct Slot {};
@@ -56,6 +56,10 @@ constexpr int featureValue() {
     void bind(Slot<slot>, const Binding& binding) { name = decltype(name)(binding); }
 #define RB_TEXTURE(slot, name)                                                                               \
     Texture name;                                                                                            \
+    static constexpr bool fillsGrid(Slot<slot>) { return true; }                                             \
+    RB_BIND(slot, texture, name)
+#define RB_TEXTURE_OF_ANY_SIZE(slot, name)                                                                   \
+    TextureOfAnySize name;                                                                                   \
     RB_BIND(slot, texture, name)
 #define RB_INPUT(slot, name)                                                                                 \
     HostImage name;                                                                                          \

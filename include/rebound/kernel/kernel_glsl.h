@@ -29,6 +29,7 @@
 #endif
 
 #define RB_TEXTURE(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
+#define RB_TEXTURE_OF_ANY_SIZE(slot, name) RB_TEXTURE(slot, name)
 #define RB_INPUT(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
 #define RB_IMAGE(slot, format, name)                                                                         \
     layout(RB_LAYOUT(slot), format) writeonly uniform highp image2D name;                                    \
