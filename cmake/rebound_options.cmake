@@ -30,3 +30,12 @@ function(rebound_optimise_little target)
         target_compile_options(${target} PRIVATE -O1)
     endif()
 endfunction()
+
+# For targets in which many files include a large header of another library. ccache keeps their objects where its own
+# setting has sloppiness = pch_defines,time_macros.
+function(rebound_precompile target)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${target} PRIVATE -fpch-preprocess) # ccache asks for it
+    endif()
+endfunction()
