@@ -16,11 +16,8 @@ using lab::Image;
 
 class TechniqueRuns {
 public:
-    TechniqueRuns(const lab::Frame& source, runner::Backend& device) : frame(source), backend(device) {
-        // Light straight from emitters is direct light, of receivers and of senders alike.
-        frame.emission = {};
-        radiance = lab::outgoingRadiance(frame);
-    }
+    TechniqueRuns(const lab::Frame& source, runner::Backend& device)
+        : frame(source), backend(device), radiance(lab::gatheredRadiance(source)) {}
 
     Result<Image> run(ScreenIndirectSettings settings) {
         settings.writeIndirect = true;
@@ -40,7 +37,7 @@ public:
     }
 
 private:
-    lab::Frame frame;
+    const lab::Frame& frame;
     runner::Backend& backend;
     Image radiance;
 };

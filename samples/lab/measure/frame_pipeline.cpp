@@ -32,11 +32,20 @@ Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const Scree
     if (!plan) return plan.error();
     pipeline.outgoing = lab::outgoingRadiance(frame);
     pipeline.limited = limitToRange(pipeline.outgoing);
+    // What is lit and what is sent differ only by emission that is direct light already.
+    const bool isOne = frame.emission.empty() || !frame.emissionIsDirectLight;
+    lab::Image sent = isOne ? lab::Image() : lab::gatheredRadiance(frame);
+    limitToRange(sent);
     const Camera camera = lab::cameraMatrices(frame.camera, pipeline.settings_.resolution);
-    auto inputs = screenIndirectInputs(
-        pipeline.settings_,
-        ScreenIndirectFrame<lab::Image>{
-            camera, frame.depth, frame.normal, pipeline.outgoing, frame.albedo, pipeline.outgoing, {}, {}});
+    auto inputs = screenIndirectInputs(pipeline.settings_,
+                                       ScreenIndirectFrame<lab::Image>{camera,
+                                                                       frame.depth,
+                                                                       frame.normal,
+                                                                       isOne ? pipeline.outgoing : sent,
+                                                                       frame.albedo,
+                                                                       pipeline.outgoing,
+                                                                       {},
+                                                                       {}});
     if (!inputs) return inputs.error();
     auto prepared = backend.prepare(*plan, *inputs, {precision, false});
     if (!prepared) return prepared.error();
