@@ -136,6 +136,7 @@ Result<> bench(const BenchOptions& options) {
         runs.push_back(*std::move(run));
     }
     print(*source, runs, options);
+    printNotes(source->notes, options.json ? std::cerr : std::cout);
     return {};
 }
 

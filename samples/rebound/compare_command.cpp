@@ -10,6 +10,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace rebound::cli {
 
@@ -56,25 +58,29 @@ lab::Image withoutAlpha(const lab::Image& image) {
     return colors;
 }
 
-Result<lab::Image> readPicture(const std::string& file) {
-    auto image = lab::readExr(file);
+struct Pictures {
+    lab::Image test, truth;
+    std::optional<lab::Image> mask;
+    std::vector<std::string> notes;
+};
+
+// What lies in no data window is no number, and so left out and counted.
+Result<lab::Image> readPicture(const std::string& file, std::vector<std::string>& notes) {
+    auto image = lab::readExr(file, {lab::ExrContent::any, std::numeric_limits<float>::quiet_NaN(), &notes});
     if (!image) return image;
     return withoutAlpha(*image);
 }
 
-struct Pictures {
-    lab::Image test, truth;
-    std::optional<lab::Image> mask;
-};
-
 Result<Pictures> readPictures(const CompareCommandOptions& options) {
-    auto test = readPicture(options.test);
+    Pictures pictures;
+    auto test = readPicture(options.test, pictures.notes);
     if (!test) return test.error();
-    auto truth = readPicture(options.truth);
+    auto truth = readPicture(options.truth, pictures.notes);
     if (!truth) return truth.error();
-    Pictures pictures{*std::move(test), *std::move(truth), {}};
+    pictures.test = *std::move(test);
+    pictures.truth = *std::move(truth);
     if (options.mask) {
-        auto mask = lab::readExr(*options.mask);
+        auto mask = lab::readExr(*options.mask, {lab::ExrContent::any, 0.0f, &pictures.notes});
         if (!mask) return mask.error();
         pictures.mask = *std::move(mask);
     }
@@ -109,6 +115,8 @@ Result<> compare(const CompareCommandOptions& options) {
         *how.curve,   how.pixelsPerDegree, *found};
     if (options.json) std::cout << toText(compareJson(comparison));
     else std::cout << compareText(comparison);
+    for (const std::string& note : pictures->notes)
+        (options.json ? std::cerr : std::cout) << "note: " << note << '\n';
     return {};
 }
 
