@@ -58,7 +58,8 @@ void GpuScene::addMeshes(SceneData data) {
     };
     attribute(0, 3, offsetof(Vertex, position));
     attribute(1, 3, offsetof(Vertex, normal));
-    attribute(2, 2, offsetof(Vertex, textureCoordinate));
+    attribute(2, 4, offsetof(Vertex, textureCoordinate)); // and the emission's, which follow
+    attribute(3, 4, offsetof(Vertex, color));
     glBindVertexBuffer(0, vertices.name(), 0, sizeof(Vertex));
     glBindVertexArray(0);
     parts = std::move(data.parts);

@@ -43,7 +43,7 @@ Result<> makeInto(Program& program, const char* name, std::initializer_list<Stag
 Targets::Targets(Extent2D size)
     : extent(size), depth(makeDepthTexture(size.width, size.height)), normal(Format::rgba16f, size),
       albedo(Format::rgba16f, size), emission(Format::rgba16f, size), lit(Format::rgba16f, size),
-      indirect(Format::rgba16f, size), composed(Format::rgba16f, size),
+      radiance(Format::rgba16f, size), indirect(Format::rgba16f, size), composed(Format::rgba16f, size),
       framebuffer(makeFramebuffer(depth.name(), {normal.name(), albedo.name(), emission.name()})) {}
 // [/rebound images]
 
@@ -93,7 +93,8 @@ void Renderer::writeFrame(const lab::CameraView& view, const Camera& camera) {
     k.inverseViewProjection = glm::mat4(glm::inverse(viewProjection));
     k.shadowMatrix = toOpenGLDepth(scene.lights.shadowMatrix);
     k.eye = view.orthographic ? glm::vec4(view.position - view.target, 0.0f) : glm::vec4(view.position, 1.0f);
-    k.shadow = {scene.lights.shadowTexel, scene.lights.shadowPerspective ? 1.0f : 0.0f, 0.0f, 0.0f};
+    k.shadow = {scene.lights.shadowTexel, scene.lights.shadowPerspective ? 1.0f : 0.0f,
+                scene.lights.emissionIsDirectLight ? 1.0f : 0.0f, 0.0f};
     k.counts = {scene.lights.count, scene.lights.shadowed, current->extent.width, current->extent.height};
     // New storage each frame: the driver keeps the old one until the GPU is done with it.
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBuffer.name());
@@ -121,20 +122,23 @@ void Renderer::light() const {
     bindTextures({current->depth.name(), current->normal.name(), current->albedo.name(),
                   current->emission.name(), shadowMap.name()});
     glBindImageTexture(0, current->lit.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    glBindImageTexture(1, current->radiance.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, scene.lightBuffer.name());
     const auto groups = [](int side) { return GLuint(side + 7) / 8; };
     glDispatchCompute(groups(current->extent.width), groups(current->extent.height), 1);
 }
 
 // [rebound frame]
-// Nothing here is specular, so what surfaces send and what is lit is one texture.
+// Emissive surfaces are lights here, so what surfaces send to be gathered is not all that is seen: radiance and lit are
+// two textures.
 ScreenIndirectFrame<opengl::Image> Renderer::indirectFrame(const Camera& camera) const {
     ScreenIndirectFrame<opengl::Image> f;
     f.camera = camera; // the matrices that the G-buffer was drawn with
     f.depth = {current->depth.name()};
     f.normal = {current->normal.name()};
     f.albedo = {current->albedo.name()};
-    f.radiance = f.lit = {current->lit.name()};
+    f.radiance = {current->radiance.name()};
+    f.lit = {current->lit.name()};
     f.indirect = {current->indirect.name()};
     f.composed = {current->composed.name()};
     return f;

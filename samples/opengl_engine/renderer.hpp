@@ -26,6 +26,7 @@ struct Targets {
     Texture depth;
     host::OpenGLTexture normal, albedo, emission;
     host::OpenGLTexture lit;                // emission + albedo * E / pi
+    host::OpenGLTexture radiance;           // what of it surfaces send to be gathered
     host::OpenGLTexture indirect, composed; // written by Rebound
     Framebuffer framebuffer;
 };

@@ -200,6 +200,7 @@ Result<> bench(const BenchOptions& options) {
     if (auto measured = measureAll(*runs, options); !measured) return measured;
     if (options.json) std::cout << toText(toJson(*source, *runs, options));
     else print(*source, *runs, configurations.size() == 1, options.frames, options.warmUp);
+    printNotes(source->notes, options.json ? std::cerr : std::cout);
     return {};
 }
 

@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <span>
 
 namespace rebound::cli {
@@ -211,6 +212,10 @@ Result<> chart(const ChartOptions& options) {
     }();
     if (!results) return results.error();
     if (auto written = writeResults(*results, out, prepared->gnuplot); !written) return written;
+    std::set<std::string> notes;
+    for (const charts::View& view : prepared->views)
+        notes.insert(view.world->notes.begin(), view.world->notes.end());
+    for (const std::string& note : notes) std::cout << "note: " << note << '\n';
     std::cout << charts::summaryText(*results) << "\nwritten to " << out.string()
               << ": index.html, results.json, results.csv, summary.md, chart*.svg, chart*.png\n";
     return {};

@@ -11,6 +11,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace rebound::cli {
 
@@ -64,17 +66,19 @@ lab::Image withoutAlpha(const lab::Image& image) {
     return colors;
 }
 
-Result<lab::Image> readPicture(const std::string& file) {
-    auto image = lab::readExr(file);
-    if (!image) return image;
-    return withoutAlpha(*image);
-}
-
 struct Pictures {
     lab::Image test, truth;
     std::optional<std::array<lab::Image, 2>> halves;
     std::optional<lab::Image> mask;
+    std::vector<std::string> notes;
 };
+
+// What lies in no data window is no number, and so left out and counted.
+Result<lab::Image> readPicture(const std::string& file, std::vector<std::string>& notes) {
+    auto image = lab::readExr(file, {lab::ExrContent::any, std::numeric_limits<float>::quiet_NaN(), &notes});
+    if (!image) return image;
+    return withoutAlpha(*image);
+}
 
 // Turns the truth into the mean of both halves. Where they do not fit, the truth is the first, and comparing says so.
 void takeHalves(Pictures& pictures, lab::Image other) {
@@ -86,18 +90,20 @@ void takeHalves(Pictures& pictures, lab::Image other) {
 }
 
 Result<Pictures> readPictures(const CompareCommandOptions& options) {
-    auto test = readPicture(options.test);
+    Pictures pictures;
+    auto test = readPicture(options.test, pictures.notes);
     if (!test) return test.error();
-    auto truth = readPicture(options.truth);
+    auto truth = readPicture(options.truth, pictures.notes);
     if (!truth) return truth.error();
-    Pictures pictures{*std::move(test), *std::move(truth), {}, {}};
+    pictures.test = *std::move(test);
+    pictures.truth = *std::move(truth);
     if (options.otherHalf) {
-        auto other = readPicture(*options.otherHalf);
+        auto other = readPicture(*options.otherHalf, pictures.notes);
         if (!other) return other.error();
         takeHalves(pictures, *std::move(other));
     }
     if (options.mask) {
-        auto mask = lab::readExr(*options.mask);
+        auto mask = lab::readExr(*options.mask, {lab::ExrContent::any, 0.0f, &pictures.notes});
         if (!mask) return mask.error();
         pictures.mask = *std::move(mask);
     }
@@ -141,6 +147,8 @@ Result<> compare(const CompareCommandOptions& options) {
                                 *found};
     if (options.json) std::cout << toText(compareJson(comparison));
     else std::cout << compareText(comparison);
+    for (const std::string& note : pictures->notes)
+        (options.json ? std::cerr : std::cout) << "note: " << note << '\n';
     return {};
 }
 

@@ -169,6 +169,7 @@ Result<> explainScene(const ExplainCommandOptions& options) {
                   << formatted(", against %d bounces, %d paths a pixel; mean %.4g W m^-2 sr^-1\n",
                                options.bounces, options.samples, explanation->truthMean)
                   << tableOf(*explanation);
+    printNotes(view->scene.notes, options.json ? std::cerr : std::cout);
     return options.out.empty() ? Result<>() : writePictures(options, *explanation, json);
 }
 

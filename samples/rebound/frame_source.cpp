@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "frame_source.hpp"
 
+#include "lab/examine/frame_examination.hpp"
 #include "lab/rays/frame_check.hpp"
 #include "lab/scenes/scene_files.hpp"
 #include "progress.hpp"
 
 #include <cmath>
 #include <filesystem>
+#include <ostream>
 
 namespace rebound::cli {
 
@@ -19,8 +21,8 @@ Result<lab::Scene> loadSceneOf(const SourceOptions& options) {
     return lab::loadScene(options.scene, options.view, {options.animation, options.time, {}});
 }
 
-Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, int threads) {
-    const auto view = loadView(options);
+Result<> renderInto(SourcedFrame& source, const SourceOptions& options, Extent2D extent, int threads) {
+    auto view = loadView(options);
     if (!view) return view.error();
     ProgressLine line("rendering the G-buffer and direct light");
     lab::FrameOptions frameOptions;
@@ -28,7 +30,19 @@ Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, i
     frameOptions.lightSamples = options.lightSamples;
     frameOptions.threads = threads;
     frameOptions.progress = [&line](double share) { line.update(share); };
-    return lab::renderFrame(view->scene, view->camera, frameOptions);
+    auto frame = lab::renderFrame(view->scene, view->camera, frameOptions);
+    if (!frame) return frame.error();
+    source.frame = *std::move(frame);
+    source.notes = std::move(view->scene.notes);
+    return {};
+}
+
+Result<> readInto(SourcedFrame& source, const SourceOptions& options) {
+    auto frame = lab::readFrame(options.frame, options.view, options.camera);
+    if (!frame) return frame.error();
+    source.frame = *std::move(frame);
+    source.notes = source.frame.notes;
+    return {};
 }
 
 } // namespace
@@ -52,21 +66,39 @@ Result<SourcedView> loadView(const SourceOptions& options) {
     return SourcedView{*std::move(scene), *std::move(camera)};
 }
 
-Result<SourcedFrame> obtainFrame(const SourceOptions& options, Extent2D extent, int threads) {
+Result<SourcedFrame> obtainFrame(const SourceOptions& options, Extent2D extent, int threads,
+                                 WrongPixels wrongPixels) {
     SourcedFrame source;
     source.isStored = !options.frame.empty();
     source.name = source.isStored ? options.frame : options.scene;
-    auto frame = source.isStored ? lab::readFrame(options.frame, options.view, options.camera)
-                                 : renderSource(options, extent, threads);
-    if (!frame) return frame.error();
-    source.frame = *std::move(frame);
+    auto obtained =
+        source.isStored ? readInto(source, options) : renderInto(source, options, extent, threads);
+    if (!obtained) return obtained.error();
+    if (wrongPixels == WrongPixels::refuse)
+        if (auto valid = checkPixels(source); !valid) return valid.error();
+    return source;
+}
+
+Result<> checkPixels(const SourcedFrame& source) {
     const std::string prefix = source.isStored ? "" : "'" + source.name + "': the rendered ";
-    const fs::path folder = source.isStored ? fs::path(options.frame) : fs::path();
+    const fs::path folder = source.isStored ? fs::path(source.name) : fs::path();
     const auto nameOfImage = [&](const char* image) {
         return source.isStored ? (folder / (std::string(image) + ".exr")).string() : prefix + image;
     };
-    if (auto valid = lab::checkFrame(source.frame, nameOfImage); !valid) return valid.error();
-    return source;
+    return lab::checkFrame(source.frame, nameOfImage);
+}
+
+Result<std::vector<std::string>> notesOf(const SourcedFrame& source, int threads) {
+    std::vector<std::string> notes = source.notes;
+    if (!source.isStored) return notes;
+    const auto findings = examine::examineFrame(source.frame, threads);
+    if (!findings) return findings.error();
+    for (const InputFinding& finding : *findings) notes.push_back(finding.sentence);
+    return notes;
+}
+
+void printNotes(const std::vector<std::string>& notes, std::ostream& stream) {
+    for (const std::string& note : notes) stream << "note: " << note << '\n';
 }
 
 } // namespace rebound::cli

@@ -5,12 +5,17 @@
 #include "lab/rays/frame.hpp"
 #include "options.hpp"
 
+#include <iosfwd>
+#include <string>
+#include <vector>
+
 namespace rebound::cli {
 
 struct SourcedFrame {
     lab::Frame frame;
     std::string name; // the scene or the folder, as given
     bool isStored = false;
+    std::vector<std::string> notes; // what was converted, taken for something else or left out of its files
 };
 
 struct SourcedView {
@@ -24,7 +29,20 @@ Result<> checkSource(const SourceOptions&);
 // The scene and camera that the options name; precondition: they name no stored frame.
 Result<SourcedView> loadView(const SourceOptions&);
 
-// Scenes are rendered at the given size, which frames in folders ignore. The result has passed lab::checkFrame.
-Result<SourcedFrame> obtainFrame(const SourceOptions&, Extent2D, int threads);
+enum class WrongPixels { refuse, keep };
+
+// Scenes are rendered at the given size, which frames in folders ignore. The result has passed checkPixels(), unless wrong
+// pixels are kept.
+Result<SourcedFrame> obtainFrame(const SourceOptions&, Extent2D, int threads,
+                                 WrongPixels = WrongPixels::refuse);
+
+// lab::checkFrame, with the frame's own names.
+Result<> checkPixels(const SourcedFrame&);
+
+// The frame's notes; of a stored one also what the input check finds.
+Result<std::vector<std::string>> notesOf(const SourcedFrame&, int threads);
+
+// "note: ", a line each.
+void printNotes(const std::vector<std::string>&, std::ostream&);
 
 } // namespace rebound::cli

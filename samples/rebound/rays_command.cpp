@@ -119,6 +119,7 @@ Result<> benchRays(const RaysOptions& options) {
                   << formatted("Embree alone   %6.2f million rays a second, the same rays\n", alone / 1e6)
                   << formatted("ratio          %6.2f\n", traced / alone);
     }
+    printNotes(view->scene.notes, options.json ? std::cerr : std::cout);
     return {};
 }
 

@@ -70,6 +70,7 @@ Json describe(const SourceOptions& source, const SourcedView& view, const lab::P
     json["scene"] = source.scene;
     json["camera"] = Json::parse(lab::cameraToJson(view.camera).dump());
     json["resolution"] = {options.extent.width, options.extent.height};
+    json["emissive_materials"] = view.scene.emissiveMaterialsLight;
     json["bounces"] = options.bounces;
     json["glossy"] = nameOf(options.glossy);
     json["seed"] = options.seed;
@@ -199,6 +200,7 @@ Result<> renderReference(const SourceOptions& source, const std::string& size, i
               << "written to " << out << ":";
     for (const OutputFile& file : files) std::cout << ' ' << file.name;
     std::cout << "\nthe same command with more paths goes on from the .paths file there\n";
+    printNotes(view->scene.notes, std::cout);
     return {};
 }
 

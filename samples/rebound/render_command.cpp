@@ -86,6 +86,8 @@ Result<> render(const RenderOptions& options) {
     if (auto writable = checkOutputFolder(options.out); !writable) return writable;
     const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
     if (!source) return source.error();
+    const auto notes = notesOf(*source, options.device.threads);
+    if (!notes) return notes.error();
     auto configured = configure(options.technique, techniques::viewOf(source->frame));
     if (!configured) return configured.error();
     auto pipeline = measure::FramePipeline::create(source->frame, *std::move(configured),
@@ -117,6 +119,7 @@ Result<> render(const RenderOptions& options) {
               << toText(pipeline->memoryUse()) << "\nexposure " << curve.exposure
               << ", then 1 - exp(-x) and sRGB, in every picture\n";
     printLimited(*pipeline);
+    printNotes(*notes, std::cout);
     std::cout << "written to " << options.out << ":";
     for (const OutputFile& file : files) std::cout << ' ' << file.name;
     std::cout << '\n';

@@ -94,7 +94,7 @@ private:
         };
         auto next = sequence.next(frameOptions);
         if (!next) return next.error();
-        frame = SourcedFrame{*std::move(next), source.scene, false};
+        frame = SourcedFrame{*std::move(next), source.scene, false, sequence.notes()};
         const auto nameOfImage = [&](const char* image) {
             return "'" + source.scene + "': the rendered " + image;
         };
@@ -230,6 +230,7 @@ Result<> renderSequence(const SourceOptions& source, const TechniqueOptions& tec
               << ", of the first frame, in all pictures\nwritten to " << out
               << ": final_NNNN.png, indirect_NNNN.exr, motion_NNNN.exr, timings.json"
               << (ffmpeg ? ", sequence.mp4\n" : "\nnote: ffmpeg is not in PATH, so that there is no video\n");
+    printNotes(run.current().notes, std::cout);
     return {};
 }
 

@@ -91,7 +91,8 @@ VkPipeline makePipeline(Objects& objects, const GraphicsPipeline& p) {
     const VkVertexInputAttributeDescription attributes[] = {
         {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
         {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
-        {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, textureCoordinate)}};
+        {2, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Vertex, textureCoordinate)},
+        {3, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Vertex, color)}};
     auto input = structure<VkPipelineVertexInputStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     if (p.vertices) {
@@ -169,9 +170,10 @@ Passes makePasses(Objects& objects, VkDescriptorSetLayout materialLayout) {
     p.frameLayout = objects.setLayout({VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC},
                                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
                                           VK_SHADER_STAGE_COMPUTE_BIT);
-    p.lightLayout = objects.setLayout({sampled, sampled, sampled, sampled, sampled,
-                                       VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                                      VK_SHADER_STAGE_COMPUTE_BIT);
+    p.lightLayout =
+        objects.setLayout({sampled, sampled, sampled, sampled, sampled, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                           VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+                          VK_SHADER_STAGE_COMPUTE_BIT);
     p.sceneLayout = objects.pipelineLayout({p.frameLayout, materialLayout}, VK_SHADER_STAGE_FRAGMENT_BIT,
                                            sizeof(MaterialConstants));
     p.lightPipelineLayout = objects.pipelineLayout({p.frameLayout, p.lightLayout});

@@ -27,12 +27,12 @@ lab::Image motionOf(const std::byte* texels, Extent2D extent) {
 Result<lab::Image> Renderer::read(const Objects::Image& source, int channels) const {
     const bool isDepth = source.format == depthFormat, isMotion = source.format == motionFormat;
     const Format format = isDepth ? Format::r32f : Format::rgba16f;
-    const VkImageLayout layout = isDepth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
-                                 : source.image == current->lit.image ||
-                                         source.image == current->indirect.image ||
-                                         source.image == current->composed.image
-                                     ? VK_IMAGE_LAYOUT_GENERAL
-                                     : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkImageLayout layout =
+        isDepth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
+        : source.image == current->lit.image || source.image == current->radiance.image ||
+                source.image == current->indirect.image || source.image == current->composed.image
+            ? VK_IMAGE_LAYOUT_GENERAL
+            : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const VkImageAspectFlags aspect = isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     const size_t size = bytesPerTexel(format) * size_t(source.extent.width) * size_t(source.extent.height);
     auto staging = host::VulkanBuffer::create(context, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,

@@ -64,6 +64,7 @@ void Renderer::makeTargets(Targets& t, Extent2D size) {
     t.emission = t.objects.image(size, colorFormat, attachment);
     t.motion = t.objects.image(size, motionFormat, attachment);
     t.lit = t.objects.image(size, colorFormat, storage);
+    t.radiance = t.objects.image(size, colorFormat, storage);
     t.indirect = t.objects.image(size, vulkan::vulkanFormat(Format::rgba16f), storage);
     t.composed = t.objects.image(size, vulkan::vulkanFormat(Format::rgba16f), storage);
 }
@@ -83,7 +84,7 @@ Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
     constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                                buffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const VkDescriptorPool pool = next->objects.descriptorPool(1, {{sampled, 5}, {image, 1}, {buffer, 1}});
+    const VkDescriptorPool pool = next->objects.descriptorPool(1, {{sampled, 5}, {image, 2}, {buffer, 1}});
     const VkDescriptorSet set = next->lightSet = next->objects.descriptorSet(pool, passes.lightLayout);
     if (!next->objects.status()) return next->objects.status();
     const VkDevice device = context.device();
@@ -95,6 +96,7 @@ Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     writeImage(device, set, 4, sampled, passes.nearest, shadowMap.view, depthLayout);
     writeImage(device, set, 5, image, VK_NULL_HANDLE, next->lit.view, VK_IMAGE_LAYOUT_GENERAL);
+    writeImage(device, set, 7, image, VK_NULL_HANDLE, next->radiance.view, VK_IMAGE_LAYOUT_GENERAL);
     writeBuffer(device, set, 6, buffer, scene->lightBuffer, VK_WHOLE_SIZE);
     // [rebound resize]
     auto replaced = indirect.compile(preset, conventionsOf(view), size);
@@ -121,7 +123,8 @@ void Renderer::writeFrame(int frame, const lab::CameraView& view, const Camera& 
         glm::mat4(glm::inverse(glm::dmat4(camera.projection) * glm::dmat4(camera.view)));
     k.shadowMatrix = scene->lights.shadowMatrix;
     k.eye = view.orthographic ? glm::vec4(view.position - view.target, 0.0f) : glm::vec4(view.position, 1.0f);
-    k.shadow = {scene->lights.shadowTexel, scene->lights.shadowPerspective ? 1.0f : 0.0f, 0.0f, 0.0f};
+    k.shadow = {scene->lights.shadowTexel, scene->lights.shadowPerspective ? 1.0f : 0.0f,
+                scene->lights.emissionIsDirectLight ? 1.0f : 0.0f, 0.0f};
     k.counts = {scene->lights.count, scene->lights.shadowed, current->lit.extent.width,
                 current->lit.extent.height};
     std::memcpy(frameBuffer->mapped + frameStride * VkDeviceSize(frame), &k, sizeof k);
@@ -159,7 +162,8 @@ void Renderer::recordLightPass(VkCommandBuffer commands, int frame) const {
 }
 
 // [rebound frame]
-// Each image with the layout that it is in. Nothing here is specular, so what surfaces send and what is lit is one image.
+// Each image with the layout that it is in. Emissive surfaces are lights here, so what surfaces send to be gathered is
+// not all that is seen: radiance and lit are two images.
 ScreenIndirectFrame<vulkan::Image> Renderer::indirectFrame(const Camera& camera) const {
     const auto image = [](const Objects::Image& i, VkImageLayout layout) {
         return vulkan::Image{i.view, i.extent, i.format, layout};
@@ -169,7 +173,8 @@ ScreenIndirectFrame<vulkan::Image> Renderer::indirectFrame(const Camera& camera)
     f.depth = image(current->depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     f.normal = image(current->normal, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     f.albedo = image(current->albedo, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    f.radiance = f.lit = image(current->lit, VK_IMAGE_LAYOUT_GENERAL);
+    f.radiance = image(current->radiance, VK_IMAGE_LAYOUT_GENERAL);
+    f.lit = image(current->lit, VK_IMAGE_LAYOUT_GENERAL);
     f.indirect = image(current->indirect, VK_IMAGE_LAYOUT_GENERAL);
     f.composed = image(current->composed, VK_IMAGE_LAYOUT_GENERAL);
     return f;
@@ -188,12 +193,13 @@ Result<> Renderer::record(VkCommandBuffer commands, int frame, const lab::Camera
     recordRasterPass(commands, frame, passes.gbufferPass, current->framebuffer, passes.gbuffer,
                      passes.sceneLayout, current->lit.extent, clear);
     if (!std::exchange(current->used, true))
-        for (const Objects::Image& written : {current->lit, current->indirect, current->composed})
+        for (const Objects::Image& written :
+             {current->lit, current->radiance, current->indirect, current->composed})
             host::recordTransition(commands, written.image, VK_IMAGE_LAYOUT_UNDEFINED,
                                    VK_IMAGE_LAYOUT_GENERAL);
     // [rebound barriers]
-    // Before: lit, indirect and composed are about to be written by compute shaders; the frame before may still be read
-    // from them, by compute shaders, the presenting fragment shader or a copy. Layouts stay GENERAL.
+    // Before: lit, radiance, indirect and composed are about to be written by compute shaders; the frame before may still
+    // be read from them, by compute shaders, the presenting fragment shader or a copy. Layouts stay GENERAL.
     constexpr VkPipelineStageFlags readers = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
                                              VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                                              VK_PIPELINE_STAGE_TRANSFER_BIT;

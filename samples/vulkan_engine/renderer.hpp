@@ -18,6 +18,7 @@ struct Targets {
     Objects::Image depth, normal, albedo, emission,
         motion;                        // depth: reversed; motion: what temporal techniques will read
     Objects::Image lit;                // emission + albedo * E / pi
+    Objects::Image radiance;           // what of it surfaces send to be gathered
     Objects::Image indirect, composed; // written by Rebound
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     VkDescriptorSet lightSet = VK_NULL_HANDLE;

@@ -48,7 +48,6 @@ std::vector<ReferenceView> builtInViews() {
                                take(lab::renderFrame(scene, camera, {.extent = extent, .lightSamples = 64})),
                                std::move(light.firstBounce),
                                {}};
-            view.frame.emission = {};
             views.push_back(std::move(view));
         }
     }

@@ -32,8 +32,6 @@ std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& share
         ReferenceView view{
             name, take(lab::readFrame(folder)), take(lab::readExr(folder / "indirect_1.exr")), {}};
         view.bruteForce = {presets.at("brute").at(0).get<double>(), presets.at("brute").at(1).get<double>()};
-        // Light straight from an emitter is in direct.exr, so the references count no emission of senders' own.
-        view.frame.emission = {};
         views.push_back(std::move(view));
     }
     return views;
@@ -45,7 +43,7 @@ lab::Image gather(const ReferenceView& view, ScreenIndirectSettings settings) {
     settings.compose = false;
     const cpu::Device device = take(cpu::Device::create());
     cpu::Program program = take(device.compile(take(planScreenIndirect(settings))));
-    lab::Image radiance = lab::outgoingRadiance(frame), result(extent, 3);
+    lab::Image radiance = lab::gatheredRadiance(frame), result(extent, 3);
     const auto image = [&](const lab::Image& i) {
         return cpu::interleavedImage(const_cast<float*>(i.data.data()), extent, i.channels);
     };

@@ -95,7 +95,7 @@ TEST_CASE("frames with wrong pixels are refused: file, number and first pixel ar
          {"96 pixels", "too short", "0, 0"}},
         {"normal.exr", [=](Draft& d) { d.normal.at(2, 3)[0] = nan; }, {"1 pixel ", "2, 3"}},
         {"depth.exr", [=](Draft& d) { *d.depth.at(9, 4) = nan; }, {"1 pixel ", "9, 4"}},
-        {"depth.exr", [=](Draft& d) { *d.depth.at(9, 4) = infinity; }, {"1 pixel ", "9, 4"}},
+        {"depth.exr", [=](Draft& d) { *d.depth.at(9, 4) = -infinity; }, {"1 pixel ", "9, 4"}},
         {"depth.exr", [](Draft& d) { *d.depth.at(9, 4) = -2.0f; }, {"negative", "9, 4"}},
     };
     const lab::TemporaryFolder folder;
@@ -128,6 +128,17 @@ TEST_CASE("stored frames of another renderer pass the check") {
         REQUIRE(indirect);
         CHECK(indirect->extent() == stored->extent());
     }
+}
+
+TEST_CASE("an infinitely far pixel has no surface, and a note says so") {
+    const lab::TemporaryFolder folder;
+    Draft draft;
+    *draft.depth.at(5, 5) = std::numeric_limits<float>::infinity();
+    for (int c = 0; c < 3; ++c) draft.normal.at(5, 5)[c] = 0.0f;
+    write(draft, folder / "frame");
+    const Outcome outcome = run("render --frame frame --out result", folder.path());
+    CHECK_MESSAGE(outcome.exitCode == 0, outcome.errors);
+    CHECK(outcome.output.find("note: frame/depth.exr: 1 pixel (1 %)") != std::string::npos);
 }
 
 TEST_CASE("pixels without a surface need no normal") {

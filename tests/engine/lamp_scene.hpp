@@ -50,14 +50,19 @@ inline lab::Scene lampScene() {
     return scene;
 }
 
-// lit: direct light and emission of 65x65 pixels, against closed forms.
-inline void checkLampLight(const lab::Image& lit) {
+// lit: direct light and emission of 65x65 pixels, against closed forms. radiance: what of it is sent to be gathered.
+inline void checkLampLight(const lab::Image& lit, const lab::Image& radiance, const lab::Scene& scene) {
     const float pi = std::numbers::pi_v<float>;
     // Straight below: intensity over squared height; the mask above neither is seen nor casts a shadow.
     const float* middle = lit.at(32, 32);
     CHECK(middle[1] == doctest::Approx(0.5f * 1.0f / pi).epsilon(2e-3)); // a half
     CHECK(middle[0] == doctest::Approx(0.25f + 0.5f * 1.0f / pi).epsilon(2e-3));
     CHECK(middle[2] == doctest::Approx(0.5f * 3.0f / pi).epsilon(2e-3));
+    // The floor's glow is sent only where it is no direct light; halves round each of the two stores by 2^-11.
+    const float* sent = radiance.at(32, 32);
+    const float glow = scene.emissiveMaterialsLight ? 0.25f : 0.0f;
+    CHECK(sent[0] == doctest::Approx(middle[0] - glow).epsilon(2e-3));
+    CHECK(sent[2] == middle[2]);
     // At 2 m to the side the spot's hard edge, at 3 tan(0.5) = 1.64 m, has been passed; the point light reaches on:
     // the pixel's centre lies 20 pixels of 6 m tan(0.5) / 32.5 off the middle.
     const float* side = lit.at(52, 32);

@@ -41,8 +41,10 @@ TEST_CASE("area lights and emissive triangles become samples of the same power")
                 glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a));
         }
     CHECK(power == doctest::Approx(double(sum))); // twice the half areas
+    CHECK(wall.emissionIsDirectLight);
     glowing.emissiveMaterialsLight = false;
     CHECK(lightsOf(glowing).count == 0);
+    CHECK_FALSE(lightsOf(glowing).emissionIsDirectLight);
 }
 
 TEST_CASE("meshes become draws of one vertex and one index buffer, and materials constants") {
@@ -75,9 +77,18 @@ TEST_CASE("meshes become draws of one vertex and one index buffer, and materials
     REQUIRE(data.materials.size() == 2);
     CHECK(data.materials[0].emission == glm::vec4(1, 2, 3, -1)); // no opacity is below -1: no holes
     CHECK(data.materials[1].emission == glm::vec4(0, 0, 0, 0.25f));
+    // Surfaces are seen to glow whether or not they are lights.
     scene.emissiveMaterialsLight = false;
+    CHECK(sceneDataOf(scene).materials[0].emission == glm::vec4(1, 2, 3, -1));
+    // Emission has its own place in its texture where a mesh says so; vertices have a colour, white if none.
+    CHECK(data.vertices[5].emissionCoordinate == glm::vec2(0, 0.75f));
+    CHECK(data.vertices[5].color == glm::vec4(1.0f));
+    scene.meshes[2].emissionCoordinates = {{0, 1}, {1, 0}, {0.25f, 0.5f}};
+    scene.meshes[2].colors.assign(3, {0.5f, 0.25f, 0.125f, 1.0f});
     data = sceneDataOf(scene);
-    CHECK(data.materials[0].emission == glm::vec4(0, 0, 0, -1));
+    CHECK(data.vertices[5].textureCoordinate == glm::vec2(0, 0.75f));
+    CHECK(data.vertices[5].emissionCoordinate == glm::vec2(0.25f, 0.5f));
+    CHECK(data.vertices[5].color == glm::vec4(0.5f, 0.25f, 0.125f, 1.0f));
 }
 
 } // namespace rebound::engine

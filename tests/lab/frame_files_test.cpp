@@ -2,6 +2,7 @@
 #include "lab/images/image_files.hpp"
 #include "lab/scenes/camera_json.hpp"
 
+#include "exr_draft.hpp"
 #include "frame_test_scene.hpp"
 #include "temporary_folder.hpp"
 
@@ -66,6 +67,84 @@ TEST_CASE("a stored frame is read back") {
     CHECK_FALSE(readFrame(folder.path(), {}, "up"));
     std::filesystem::remove(folder / "emission.exr");
     CHECK(readFrame(folder.path())->emission.empty());
+}
+
+TEST_CASE("what other programs mark the sky by counts as no surface, and is noted") {
+    const TemporaryFolder folder;
+    const Frame frame = smallFrame();
+    for (const float sky : {std::numeric_limits<float>::infinity(), 1e10f, 65504.0f, 20.0f}) { // far is 20 m
+        CAPTURE(sky);
+        Frame marked = frame;
+        *marked.depth.at(3, 2) = *marked.depth.at(4, 2) = sky;
+        store(marked, folder);
+        const auto read = readFrame(folder.path());
+        REQUIRE_MESSAGE(read, (read ? "" : read.error().message));
+        CHECK(*read->depth.at(3, 2) == 0.0f);
+        CHECK(*read->depth.at(5, 2) == *frame.depth.at(5, 2));
+        REQUIRE(read->notes.size() == 1);
+        CHECK(read->notes[0].find("depth.exr: 2 pixels (2.1 %)") != std::string::npos);
+    }
+    store(frame, folder);
+    CHECK(readFrame(folder.path())->notes.empty());
+
+    // Nothing says that this is sky; but it may be.
+    Frame walled = frame;
+    for (int x = 0; x < 12; ++x) *walled.depth.at(x, 0) = 9.0f;
+    store(walled, folder);
+    const auto read = readFrame(folder.path());
+    CHECK(*read->depth.at(3, 0) == 9.0f);
+    REQUIRE(read->notes.size() == 1);
+    CHECK(read->notes[0].find("12 % of the pixels hold the largest depth, 9.0") != std::string::npos);
+}
+
+TEST_CASE("the images of a frame are read as what they are") {
+    const TemporaryFolder folder;
+    const Frame frame = smallFrame();
+    store(frame, folder);
+    // Normals by axes, depth called Z, with a part of the picture only.
+    ExrDraft normal, depth;
+    normal.displayWindow = normal.dataWindow = depth.displayWindow = {{0, 0}, {11, 7}};
+    for (size_t i = 0; i < frame.normal.data.size(); ++i)
+        normal.channels[std::string(1, "XYZ"[i % 3])].push_back(frame.normal.data[i]);
+    normal.write(folder / "normal.exr");
+    depth.dataWindow = {{2, 1}, {5, 3}};
+    for (int y = 1; y <= 3; ++y)
+        for (int x = 2; x <= 5; ++x) depth.channels["Z"].push_back(*frame.depth.at(x, y));
+    depth.write(folder / "depth.exr");
+    const auto read = readFrame(folder.path());
+    REQUIRE_MESSAGE(read, (read ? "" : read.error().message));
+    CHECK(read->normal.data == frame.normal.data);
+    CHECK(*read->depth.at(2, 1) == *frame.depth.at(2, 1));
+    CHECK(*read->depth.at(5, 3) == *frame.depth.at(5, 3));
+    CHECK(*read->depth.at(1, 1) == 0.0f); // no surface, and still in its place
+    REQUIRE(read->notes.size() == 1);
+    CHECK(read->notes[0].find("its data window, 2, 1 to 5, 3") != std::string::npos);
+}
+
+TEST_CASE("a stored frame says whether its emission is direct light") {
+    const TemporaryFolder folder;
+    store(smallFrame(), folder);
+    CHECK(readFrame(folder.path())->emissionIsDirectLight);
+    nlohmann::json described = nlohmann::json::parse(meta);
+    for (const bool flag : {true, false}) {
+        described["emissive_materials"] = flag;
+        writeText(folder / "meta.json", described.dump());
+        CHECK(readFrame(folder.path())->emissionIsDirectLight == flag);
+    }
+    nlohmann::json viewed = nlohmann::json::parse(view);
+    viewed["emissive_materials"] = true;
+    writeText(folder / "view.json", viewed.dump());
+    CHECK(readFrame(folder.path(), folder / "view.json")->emissionIsDirectLight); // meta.json says otherwise
+    described["emissive_materials"] = "yes";
+    writeText(folder / "meta.json", described.dump());
+    const auto read = readFrame(folder.path());
+    REQUIRE(!read);
+    CHECK(read.error().message.find("\"emissive_materials\" is \"yes\"; expected true or false") !=
+          std::string::npos);
+    viewed.erase("cameras");
+    writeText(folder / "view.json", viewed.dump());
+    CHECK(readFrame(folder.path(), folder / "view.json").error().message.find("no cameras") !=
+          std::string::npos);
 }
 
 TEST_CASE("a view file's camera replaces the stored one") {

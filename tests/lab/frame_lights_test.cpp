@@ -213,6 +213,16 @@ TEST_CASE("emission is seen where it is visible, and only then stored") {
     CHECK(colorAt(frame.emission, 5, 10) == glm::vec3(0.0f));
     CHECK(colorAt(outgoingRadiance(frame), 25, 10).x ==
           doctest::Approx(6 + 0.25 * frame.direct.at(25, 10)[0]));
+    // Its light is in `direct`, and would arrive a second time if it were gathered.
+    CHECK(frame.emissionIsDirectLight);
+    CHECK(colorAt(gatheredRadiance(frame), 25, 10).x == 0.25f * frame.direct.at(25, 10)[0]);
+    scene.emissiveMaterialsLight = false;
+    const Frame gathered = rendered(scene, downCamera(), options);
+    CHECK_FALSE(gathered.emissionIsDirectLight);
+    CHECK(gathered.emission.data == frame.emission.data);
+    for (const float value : gathered.direct.data) REQUIRE(value == 0.0f);
+    CHECK(colorAt(gatheredRadiance(gathered), 25, 10) == glm::vec3(6, 1, 0.5f));
+    CHECK(gatheredRadiance(gathered).data == outgoingRadiance(gathered).data);
     scene.meshes[1].positions = {{9, 1, 9}, {9, 1, 10}, {10, 1, 10}, {10, 1, 9}};
     CHECK(rendered(scene, downCamera(), options).emission.empty());
 }

@@ -157,6 +157,19 @@ TEST_CASE("skinned vertices follow their joints, not their node") {
     checkNear(positions[2], 0.25f * glm::vec3(-1, 2, 0) + 0.75f * glm::vec3(0, 1, 7));
 }
 
+TEST_CASE("a skin without inverse bind matrices has identities") {
+    const std::vector<float> weights = {1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 0, 0};
+    const std::vector<uint8_t> joints = {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};
+    GltfDraft absent = skinnedDraft(weights, joints), identities = absent;
+    absent.root["skins"][0].erase("inverseBindMatrices");
+    std::vector<float> unit(32, 0.0f);
+    for (size_t i = 0; i < 8; ++i) unit[i / 4 * 16 + i % 4 * 5] = 1.0f;
+    identities.root["skins"][0]["inverseBindMatrices"] = identities.addAccessor<float>("MAT4", 2, unit);
+    const Result<Scene> scene = loadAt(absent, 0);
+    REQUIRE_MESSAGE(scene, (scene ? "" : scene.error().message));
+    CHECK(scene->meshes.at(0).positions == loadAt(identities, 0)->meshes.at(0).positions);
+}
+
 TEST_CASE("a damaged skin or clip is refused") {
     const std::vector<float> weights = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
     const Result<Scene> joint = loadAt(skinnedDraft(weights, {0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0}), 0);

@@ -24,6 +24,14 @@ void checkError(const std::string& message, const std::string& file, const std::
     CHECK(message.find('\n') == std::string::npos);
 }
 
+// Words that only libraries use: of JSON, glTF, pictures.
+void checkOwnWords(const std::string& message) {
+    INFO(message);
+    for (const char* word :
+         {"json.exception", "parse error", "syntax error", "Parse", "Failed", "property", "`", "tinygltf"})
+        CHECK(message.find(word) == std::string::npos);
+}
+
 struct Damage {
     const char* name;
     std::function<void(GltfDraft&)> apply;
@@ -91,12 +99,12 @@ const Damage damages[] = {
      [](GltfDraft& d) {
          d.root["nodes"][0]["matrix"] = {1, 0, 0};
      },
-     "'matrix'"},
+     "nodes[0].matrix"},
     {"short translation",
      [](GltfDraft& d) {
          d.root["nodes"][0]["translation"] = {1, 0};
      },
-     "'translation'"},
+     "nodes[0].translation"},
     {"zero rotation",
      [](GltfDraft& d) {
          d.root["nodes"][0]["rotation"] = {0, 0, 0, 0};
@@ -221,7 +229,7 @@ const Damage damages[] = {
      [](GltfDraft& d) {
          d.root["buffers"] = {{{"byteLength", 44}, {"uri", "data:application/octet-stream;base64,AAAA"}}};
      },
-     "Failed to decode"},
+     "buffer 0 has 3 bytes; expected 44"},
     {"primitive without attributes",
      [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0].erase("attributes"); }, "attributes"},
     {"only points", [](GltfDraft& d) { d.root["meshes"][0]["primitives"][0]["mode"] = 0; }, "no triangles"},
@@ -268,10 +276,74 @@ TEST_CASE("a damaged glTF file is refused with a message that names it and the d
     TemporaryFolder folder;
     REQUIRE(loadGltf(triangleDraft().save(folder)));
     for (const Damage& damage : damages) {
-        CAPTURE(damage.name);
+        CAPTURE(std::string(damage.name));
         GltfDraft draft = triangleDraft();
         damage.apply(draft);
         checkError(errorOf(draft.save(folder)), "scene.gltf", damage.expected);
+        checkOwnWords(errorOf(draft.save(folder)));
+    }
+}
+
+TEST_CASE("a key that is missing or of another type is named by its path, with what was expected") {
+    TemporaryFolder folder;
+    struct Case {
+        const char* patch; // RFC 7396
+        const char* expected;
+    };
+    for (const Case& c : {
+             Case{R"({"accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3"}]})",
+                  "'accessors[0].count' is missing; expected a whole number"},
+             Case{R"({"accessors": [{"bufferView": 0, "count": 3, "type": "VEC3"}]})",
+                  "'accessors[0].componentType'"},
+             Case{R"({"accessors": [{"componentType": 5126, "count": "3", "type": "VEC3"}]})",
+                  "'accessors[0].count' is \"3\""},
+             Case{R"({"accessors": [{"componentType": 5126, "count": 3, "type": 3}]})", "expected a string"},
+             Case{R"({"meshes": [{}]})", "'meshes[0].primitives' is missing; expected a list of objects"},
+             Case{R"({"meshes": [{"primitives": [3]}]})", "'meshes[0].primitives' is [3]"},
+             Case{R"({"meshes": [{"primitives": [{"attributes": []}]}]})",
+                  "'meshes[0].primitives[0].attributes'"},
+             Case{R"({"skins": [{}]})", "'skins[0].joints' is missing"},
+             Case{R"({"cameras": [{"type": "perspective"}]})", "lacks the key 'perspective'"},
+             Case{R"({"cameras": [{"type": "orthographic", "orthographic": {"xmag": 1}}]})",
+                  "'cameras[0].orthographic.ymag' is missing"},
+             Case{R"({"cameras": [{"type": "fisheye"}]})", "expected perspective or orthographic"},
+             Case{R"({"images": [{}]})", "image 0 has neither of the keys"},
+             Case{R"({"images": [{"uri": "a", "bufferView": 0}]})", "image 0 has both of the keys"},
+             Case{R"({"images": [{"uri": 3}]})", "'images[0].uri' is 3"},
+             Case{R"({"materials": [{"pbrMetallicRoughness": {"metallicFactor": "high"}}]})",
+                  "'materials[0].pbrMetallicRoughness.metallicFactor' is \"high\"; expected a finite number"},
+             Case{R"({"materials": [{"normalTexture": {}}]})",
+                  "'materials[0].normalTexture.index' is missing"},
+             Case{R"({"nodes": [{"matrix": "unit"}]})", "'nodes[0].matrix'"},
+             Case{R"({"animations": [{"channels": []}]})", "'animations[0].samplers' is missing"},
+             Case{R"({"animations": [{"channels": [{"sampler": 0}], "samplers": []}]})",
+                  "'animations[0].channels[0].target' is missing"},
+             Case{R"({"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot"}]}}})",
+                  "lacks the key 'spot'"},
+             Case{R"({"extensions": {"KHR_lights_punctual": {"lights": 3}}})", "expected a list of objects"},
+             Case{R"({"extensions": 3})", "'extensions' is 3; expected an object"},
+         }) {
+        CAPTURE(c.patch);
+        GltfDraft draft = triangleDraft();
+        draft.root.merge_patch(Json::parse(c.patch));
+        const std::string message = errorOf(draft.save(folder));
+        checkError(message, "scene.gltf", c.expected);
+        checkOwnWords(message);
+    }
+}
+
+TEST_CASE("JSON that is damaged is refused with the place of the damage") {
+    TemporaryFolder folder;
+    writeText(folder / "a.gltf", "{\n  \"asset\": {\n    \"version\" \"2.0\"\n  }\n}");
+    const std::string message = errorOf(folder / "a.gltf");
+    checkError(message, "a.gltf", "near line 3, column 19");
+    checkOwnWords(message);
+    for (const char* text :
+         {"", "{", "{\"a\": 1e999}", "{\"a\": \"\xff\"}", "{\"a\": tru}", "[1, 2", "{} {}"}) {
+        CAPTURE(text);
+        writeText(folder / "a.gltf", text);
+        checkError(errorOf(folder / "a.gltf"), "a.gltf", "not glTF");
+        checkOwnWords(errorOf(folder / "a.gltf"));
     }
 }
 
@@ -357,8 +429,10 @@ TEST_CASE("bytes changed at random never do worse than an error") {
         Bytes damaged = whole;
         for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<uint8_t>(random());
         writeBytes(folder / "a.glb", damaged.data(), damaged.size());
-        if (const Result<Scene> scene = loadGltf(folder / "a.glb"); scene) CHECK(validate(*scene));
-        else ++refused;
+        const Result<Scene> scene = loadGltf(folder / "a.glb");
+        if (scene) CHECK(validate(*scene));
+        else checkOwnWords(scene.error().message);
+        refused += scene ? 0 : 1;
     }
     // Nearly all of the file is JSON and indices, where few changes are harmless.
     CHECK(refused > 250);

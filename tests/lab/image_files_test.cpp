@@ -39,9 +39,9 @@ void patch(std::string& bytes, size_t at, int32_t value) {
     std::memcpy(bytes.data() + at, &value, sizeof(value));
 }
 
-// Where the four integers of the data window begin.
-size_t dataWindowAt(const std::string& bytes) {
-    const std::string name("dataWindow\0box2i\0", 17);
+// Where the four integers of a window begin.
+size_t windowAt(const std::string& bytes, const std::string& window) {
+    const std::string name = window + std::string("\0box2i\0", 7);
     const size_t found = bytes.find(name);
     REQUIRE(found != std::string::npos);
     return found + name.size() + sizeof(int32_t);
@@ -77,18 +77,20 @@ TEST_CASE("half EXR keeps halves, and stores what is beyond as the largest") {
     CHECK(same(*read, expected));
 }
 
-TEST_CASE("a data window anywhere is mapped to the origin") {
+TEST_CASE("windows anywhere are mapped to the origin") {
     const TemporaryFolder folder;
     const Image image = rampImage({6, 4}, 3);
     REQUIRE(writeExr(folder / "a.exr", image, ExrPrecision::full));
     std::string bytes = readText(folder / "a.exr");
-    const size_t window = dataWindowAt(bytes);
+    const size_t window = windowAt(bytes, "dataWindow"), shown = windowAt(bytes, "displayWindow");
     const int32_t left = -1000000;
     const int32_t top = 70000;
-    patch(bytes, window, left);
-    patch(bytes, window + 4, top);
-    patch(bytes, window + 8, left + 5);
-    patch(bytes, window + 12, top + 3);
+    for (const size_t both : {window, shown}) {
+        patch(bytes, both, left);
+        patch(bytes, both + 4, top);
+        patch(bytes, both + 8, left + 5);
+        patch(bytes, both + 12, top + 3);
+    }
     // Four rows are one chunk of zip compression: its first field is the row it begins at, and the table of
     // one entry before it holds its place.
     uint64_t place = 0;
@@ -106,7 +108,7 @@ TEST_CASE("absurd sizes are refused before memory is taken") {
     const TemporaryFolder folder;
     REQUIRE(writeExr(folder / "a.exr", rampImage({6, 4}, 3)));
     const std::string bytes = readText(folder / "a.exr");
-    const size_t window = dataWindowAt(bytes);
+    const size_t window = windowAt(bytes, "dataWindow");
     for (const int32_t last : {maximumExtent, std::numeric_limits<int32_t>::max(), -2, maximumExtent - 1}) {
         std::string patched = bytes;
         patch(patched, window + 8, last);

@@ -52,6 +52,22 @@ TEST_CASE("a furnace: a closed box that emits from everywhere") {
         }
 }
 
+TEST_CASE("emission that is no direct light counts as light of a surface that was met") {
+    for (const int bounces : {0, 1, 3}) {
+        CAPTURE(bounces);
+        Scene scene = boxScene(0.4f, 2.5f);
+        scene.emissiveMaterialsLight = false;
+        const auto light =
+            traced(scene, wallCamera(), {.extent = {8, 8}, .bounces = bounces, .samples = 256});
+        for (const float value : light.direct.data) REQUIRE(value == 0.0f);
+        // The furnace's sum, a surface later: nothing is direct, and the emitter is the first that was met.
+        const double truth = bounces > 0 ? 2.5 * geometricSum(0.4, 0, bounces - 1) : 0.0;
+        CHECK(std::abs(meanOf(light.indirect) - truth) <= allowedDifference(light, truth));
+        CHECK(std::abs(meanOf(light.firstBounce) - (bounces > 0 ? 2.5 : 0.0)) <=
+              allowedDifference(light, 2.5));
+    }
+}
+
 TEST_CASE("energy: what a point in the middle of a cube sends out meets its walls again and again") {
     for (const float albedo : {0.2f, 0.8f})
         for (const int bounces : {1, 3, 64}) {

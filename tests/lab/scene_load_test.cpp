@@ -63,7 +63,7 @@ TEST_CASE("a scene without cameras gets one from which all of it is in view") {
     }
 }
 
-TEST_CASE("emissive surfaces are light only where they are meant to be") {
+TEST_CASE("emissive surfaces light a scene, directly or by what is gathered") {
     TemporaryFolder folder;
     GltfDraft draft = triangleDraft();
     draft.add("materials", {{"emissiveFactor", {1, 1, 1}}});
@@ -74,9 +74,27 @@ TEST_CASE("emissive surfaces are light only where they are meant to be") {
     view["environment"]["radiance"] = {0, 0, 0};
     writeText(folder / "view.json", view.dump());
     CHECK(loadScene(file));
+    // What is no direct light may still be gathered.
     view["emissive_materials"] = false;
     writeText(folder / "view.json", view.dump());
+    CHECK(loadScene(file));
+    draft.root["materials"][0]["emissiveFactor"] = {0, 0, 0};
+    draft.save(folder);
     CHECK(!loadScene(file));
+}
+
+TEST_CASE("the error of a scene without light holds the view file that lights it") {
+    TemporaryFolder folder;
+    const std::string file = triangleDraft().save(folder).string();
+    const Result<Scene> dark = loadScene(file);
+    REQUIRE(!dark);
+    const std::string& message = dark.error().message;
+    const size_t begin = message.find('{', message.find("no light"));
+    REQUIRE(begin != std::string::npos);
+    writeText(folder / "view.json", message.substr(begin, message.rfind('}') + 1 - begin));
+    const Result<Scene> lit = loadScene(file);
+    REQUIRE_MESSAGE(lit, (lit ? "" : lit.error().message));
+    CHECK(lit->environment == glm::vec3(1.0f));
 }
 
 TEST_CASE("an unknown built-in scene's error lists those that exist") {

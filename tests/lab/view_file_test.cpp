@@ -69,6 +69,26 @@ TEST_CASE("a view file's lights, camera, environment and animation") {
     CHECK(area.size == glm::vec2(1.5f, 2.5f));
 }
 
+TEST_CASE("what a view file does not hold stays the scene's, and what no view file holds is noted") {
+    Scene before;
+    before.cameras.resize(2);
+    before.lights.resize(3);
+    before.environment = {1, 2, 3};
+    before.emissiveMaterialsLight = false;
+    Scene scene = before;
+    REQUIRE(applyView("{}", scene));
+    CHECK(scene.cameras.size() == 2);
+    CHECK(scene.lights.size() == 3);
+    CHECK(scene.environment == glm::vec3(1, 2, 3));
+    CHECK_FALSE(scene.emissiveMaterialsLight);
+    CHECK(scene.notes.empty());
+    REQUIRE(applyView(R"({"enviroment": {}, "lights": []})", scene));
+    CHECK(scene.cameras.size() == 2);
+    CHECK(scene.lights.empty());
+    REQUIRE(scene.notes.size() == 1);
+    CHECK(scene.notes[0].find("\"enviroment\"") != std::string::npos);
+}
+
 TEST_CASE("the moment that a view file asks for") {
     TemporaryFolder folder;
     writeText(folder / "view.json", goodView().dump());
@@ -96,7 +116,6 @@ struct Damage {
 };
 
 const Damage damages[] = {
-    {"no cameras", [](Json& v) { v.erase("cameras"); }, "cameras"},
     {"cameras are no list", [](Json& v) { v["cameras"] = 1; }, "cameras"},
     {"camera is no object", [](Json& v) { v["cameras"][0] = 1; }, "cameras[0]"},
     {"camera without a name", [](Json& v) { v["cameras"][0].erase("name"); }, "name"},
@@ -109,7 +128,6 @@ const Damage damages[] = {
      "cameras[0]"},
     {"field of view of 180", [](Json& v) { v["cameras"][0]["vfov_degrees"] = 180; }, "cameras[0]"},
     {"far before near", [](Json& v) { v["cameras"][0]["far"] = 0.01; }, "cameras[0]"},
-    {"no lights", [](Json& v) { v.erase("lights"); }, "lights"},
     {"light is no object", [](Json& v) { v["lights"][1] = "sun"; }, "lights[1]"},
     {"light without a type", [](Json& v) { v["lights"][1].erase("type"); }, "type"},
     {"unknown light", [](Json& v) { v["lights"][1]["type"] = "laser"; }, "laser"},
@@ -154,14 +172,12 @@ const Damage damages[] = {
          v["lights"][3]["right"] = {0, 4, 0};
      },
      "right"},
-    {"no environment", [](Json& v) { v.erase("environment"); }, "environment"},
     {"unknown environment", [](Json& v) { v["environment"]["type"] = "map"; }, "map"},
     {"negative environment",
      [](Json& v) {
          v["environment"]["radiance"] = {0, -1, 0};
      },
      "radiance"},
-    {"no flag", [](Json& v) { v.erase("emissive_materials"); }, "emissive_materials"},
     {"flag as a number", [](Json& v) { v["emissive_materials"] = 1; }, "emissive_materials"},
 };
 

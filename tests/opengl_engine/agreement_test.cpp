@@ -17,10 +17,10 @@ void checkFrame(const lab::Scene& scene, const lab::CameraView& view, const std:
         require(renderer->render(view));
         const Targets& t = renderer->targets();
         const auto read = [&](const auto& target) { return require(renderer->read(target, 3)); };
-        const lab::Image lit = read(t.lit);
+        const lab::Image lit = read(t.lit), radiance = read(t.radiance);
         checkIndirectLight(renderer->indirectLight().settings(),
-                           {cameraOf(view, size), renderer->readDepth(), read(t.normal), lit, read(t.albedo),
-                            lit, read(t.indirect), read(t.composed)});
+                           {cameraOf(view, size), renderer->readDepth(), read(t.normal), radiance,
+                            read(t.albedo), lit, read(t.indirect), read(t.composed)});
     }
     checkSilence(context);
 }

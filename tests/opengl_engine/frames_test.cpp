@@ -47,12 +47,14 @@ TEST_CASE("what cannot be resized stays as it was") {
 
 TEST_CASE("a spot light, a point light, emission and an alpha mask, against closed forms") {
     auto context = openContext();
-    const lab::Scene scene = lampScene();
+    lab::Scene scene = lampScene();
     const lab::CameraView& view = scene.cameras.at(0);
-    {
+    for (const bool isDirectLight : {true, false}) {
+        scene.emissiveMaterialsLight = isDirectLight;
         const auto renderer = rendererFor(scene, {65, 65}, view);
         require(renderer->render(view));
-        checkLampLight(require(renderer->read(renderer->targets().lit, 3)));
+        checkLampLight(require(renderer->read(renderer->targets().lit, 3)),
+                       require(renderer->read(renderer->targets().radiance, 3)), scene);
     }
     checkSilence(context);
 }

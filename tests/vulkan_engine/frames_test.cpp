@@ -80,12 +80,14 @@ TEST_CASE("motion is none for a camera that rests, and leads to where a surface 
 
 TEST_CASE("a spot light, a point light, emission and an alpha mask, against closed forms") {
     const auto context = openContext();
-    const lab::Scene scene = lampScene();
+    lab::Scene scene = lampScene();
     const lab::CameraView& view = scene.cameras.at(0);
-    {
+    for (const bool isDirectLight : {true, false}) {
+        scene.emissiveMaterialsLight = isDirectLight;
         const auto renderer = rendererFor(context, scene, {65, 65}, view);
         renderFrame(context, *renderer, 0, view);
-        checkLampLight(require(renderer->read(renderer->targets().lit, 3)));
+        checkLampLight(require(renderer->read(renderer->targets().lit, 3)),
+                       require(renderer->read(renderer->targets().radiance, 3)), scene);
     }
     checkSilence(context);
 }

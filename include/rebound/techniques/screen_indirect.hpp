@@ -62,8 +62,8 @@ float coveringRingRadius(const ScreenIndirectSettings&);
 //
 // Inputs  depth     1 channel, as the conventions say
 //         normal    3 channels, as the conventions say
-//         radiance  diffuse radiance that each pixel sends out: albedo * E / pi + emission, no specular, up to 65504
-//                   [W m^-2 sr^-1, or any unit: the output is in the same]
+//         radiance  diffuse radiance that each pixel sends to others, no specular, up to 65504: albedo * E / pi, and
+//                   emission that E does not hold [W m^-2 sr^-1, or any unit: the output is in the same]
 //         albedo    diffuse reflectance, 0 to 1 (compose only)
 //         lit       the picture that indirect light is added to (compose only)
 // Outputs indirect  3 channels: irradiance over pi of light that met one other surface (writeIndirect only)

@@ -37,8 +37,6 @@ Result<> LabWorkshop::prepareFrame(const View& view, const lab::Progress& progre
     const auto nameOfImage = [&](const char* image) { return "'" + view.scene + "': the rendered " + image; };
     if (auto valid = lab::checkFrame(*rendered, nameOfImage); !valid) return valid;
     frame = *std::move(rendered);
-    // The truth counts light straight from emitters as direct light, so that senders must not send it again.
-    frame.emission = {};
     frameOf = view.label;
     return {};
 }

@@ -116,7 +116,7 @@ Result<Case> sceneCase(const std::string& name, const techniques::Technique& tec
     if (!configured) return configured.error();
     const lab::Image outgoing = lab::outgoingRadiance(*frame);
     scaleLengths(*frame, size);
-    auto inputs = configured->inputs(*frame, outgoing);
+    auto inputs = configured->inputs(*frame, outgoing, outgoing);
     if (!inputs) return inputs.error();
     float largestRadiance = 0;
     for (const float value : outgoing.data) largestRadiance = std::max(largestRadiance, value);

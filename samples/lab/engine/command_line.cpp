@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
+#include "lab/files/command_line_error.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/rays/camera_rays.hpp"
 #include "lab/scenes/scene_files.hpp"
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 
 namespace rebound::engine {
 namespace {
@@ -39,7 +41,9 @@ Result<> loadAndRun(const Options& o, const Run& run) {
     auto camera = lab::findCamera(*scene, o.camera);
     if (!camera) return camera.error();
     if (auto valid = lab::validate(*camera); !valid) return valid;
-    return run(o, *scene, *camera);
+    if (auto done = run(o, *scene, *camera); !done) return done;
+    for (const std::string& note : scene->notes) std::printf("note: %s\n", note.c_str());
+    return {};
 }
 
 int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& run) {
@@ -65,7 +69,7 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
         return end.get_exit_code() == int(CLI::ExitCodes::Success) ? app.exit(end)
-                                                                   : fail(program, end.what());
+                                                                   : fail(program, lab::sentenceOf(app, end));
     }
     if (!parseSize(size, o.size))
         return fail(program, "--size is \"" + size + "\"; WIDTHxHEIGHT, each 1 to " +
@@ -81,8 +85,11 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
 int runProgram(int argc, char** argv, const ProgramText& program, const Run& run) {
     try {
         return parseAndRun(argc, argv, program, run);
-    } catch (const std::exception& failure) {
-        return fail(program, failure.what());
+    } catch (const std::bad_alloc&) {
+        return fail(program, "out of memory");
+    } catch (const std::exception&) {
+        return fail(program,
+                    "something has failed that should not fail; a report with the command line would help");
     }
 }
 

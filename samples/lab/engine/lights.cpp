@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lights.hpp"
 
+#include "scene_data.hpp"
+
 #include "lab/light/low_discrepancy.hpp"
 #include "lab/rays/texture_lookup.hpp"
 
@@ -53,7 +55,7 @@ void addLight(const lab::Light& light, std::vector<GpuLight>& lights) {
 
 struct Emitter {
     glm::vec3 corners[3];
-    glm::vec2 coordinates[3]; // of its texture
+    glm::vec2 coordinates[3]; // of its emission
     const lab::Material* material;
     float area, end; // the sum of powers up to and with this one
 };
@@ -68,9 +70,7 @@ std::vector<Emitter> emittersOf(const lab::Scene& scene) {
             Emitter e{{}, {}, &material, 0.0f, 0.0f};
             for (size_t c = 0; c < 3; ++c) {
                 e.corners[c] = mesh.positions[mesh.indices[i + c]];
-                e.coordinates[c] = mesh.textureCoordinates.empty()
-                                       ? glm::vec2(0.0f)
-                                       : mesh.textureCoordinates[mesh.indices[i + c]];
+                e.coordinates[c] = emissionCoordinate(mesh, mesh.indices[i + c]);
             }
             e.area = 0.5f * glm::length(glm::cross(e.corners[1] - e.corners[0], e.corners[2] - e.corners[0]));
             if (!(e.area > 0.0f)) continue;
@@ -153,6 +153,7 @@ LightSetup lightsOf(const lab::Scene& scene) {
     for (const lab::Light& light : scene.lights)
         if (&light != caster) addLight(light, setup.lights);
     addEmissiveSurfaces(scene, setup.lights);
+    setup.emissionIsDirectLight = scene.emissiveMaterialsLight;
     setup.count = int(setup.lights.size());
     if (setup.lights.empty()) setup.lights.emplace_back(); // a buffer is never empty
     return setup;

@@ -21,6 +21,8 @@ struct LightSetup {
     glm::mat4 shadowMatrix{1.0f}; // world to clip space, depth 0 near to 1 far
     float shadowTexel = 0.0f;     // a texel's side: at unit distance [1] in perspective, else anywhere [m]
     bool shadowPerspective = false;
+    bool emissionIsDirectLight =
+        true; // emissive surfaces are among the lights, so that they send nothing to be gathered
 };
 inline constexpr int shadowMapSize = 2048; // [texels]
 

@@ -11,15 +11,22 @@ SceneData sceneDataOf(const lab::Scene& scene) {
                               int32_t(data.vertices.size()), size_t(mesh.material)});
         data.indices.insert(data.indices.end(), mesh.indices.begin(), mesh.indices.end());
         for (size_t i = 0; i < mesh.positions.size(); ++i)
-            data.vertices.push_back(
-                {mesh.positions[i], mesh.normals[i],
-                 mesh.textureCoordinates.empty() ? glm::vec2(0.0f) : mesh.textureCoordinates[i]});
+            data.vertices.push_back({mesh.positions[i], mesh.normals[i], textureCoordinate(mesh, i),
+                                     emissionCoordinate(mesh, i),
+                                     mesh.colors.empty() ? glm::vec4(1.0f) : mesh.colors[i]});
     }
-    for (const lab::Material& m : scene.materials) {
-        const glm::vec3 emission = scene.emissiveMaterialsLight ? m.emission : glm::vec3(0.0f);
-        data.materials.push_back({m.baseColor, {emission, m.alphaMasked ? m.alphaCutoff : -1.0f}});
-    }
+    for (const lab::Material& m : scene.materials)
+        data.materials.push_back({m.baseColor, {m.emission, m.alphaMasked ? m.alphaCutoff : -1.0f}});
     return data;
+}
+
+glm::vec2 textureCoordinate(const lab::Mesh& mesh, size_t vertex) {
+    return mesh.textureCoordinates.empty() ? glm::vec2(0.0f) : mesh.textureCoordinates[vertex];
+}
+
+glm::vec2 emissionCoordinate(const lab::Mesh& mesh, size_t vertex) {
+    return mesh.emissionCoordinates.empty() ? textureCoordinate(mesh, vertex)
+                                            : mesh.emissionCoordinates[vertex];
 }
 
 } // namespace rebound::engine

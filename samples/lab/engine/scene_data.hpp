@@ -8,7 +8,8 @@ namespace rebound::engine {
 
 struct Vertex {
     glm::vec3 position, normal;
-    glm::vec2 textureCoordinate;
+    glm::vec2 textureCoordinate, emissionCoordinate;
+    glm::vec4 color; // factor of the base colour
 };
 
 // Its twins are in the engines' shaders/material.glsl.
@@ -29,5 +30,9 @@ struct SceneData {
 };
 
 SceneData sceneDataOf(const lab::Scene&);
+
+// Where a vertex finds its base colour and its emission in their textures.
+glm::vec2 textureCoordinate(const lab::Mesh&, size_t vertex);
+glm::vec2 emissionCoordinate(const lab::Mesh&, size_t vertex);
 
 } // namespace rebound::engine

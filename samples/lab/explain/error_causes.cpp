@@ -15,14 +15,11 @@ using lab::Image;
 
 class TechniqueRuns {
 public:
-    TechniqueRuns(const lab::Frame& source, runner::Backend& device) : frame(source), backend(device) {
-        // Light straight from emitters is direct light, of receivers and of senders alike.
-        frame.emission = {};
-        radiance = lab::outgoingRadiance(frame);
-    }
+    TechniqueRuns(const lab::Frame& source, runner::Backend& device)
+        : frame(source), backend(device), radiance(lab::gatheredRadiance(source)) {}
 
     Result<Image> run(const techniques::Configured& technique) {
-        auto inputs = technique.inputs(frame, radiance);
+        auto inputs = technique.inputs(frame, radiance, radiance);
         if (!inputs) return inputs.error();
         auto prepared = backend.prepare(technique.plan, *inputs, {runner::Precision::single, false});
         if (!prepared) return prepared.error();
@@ -31,7 +28,7 @@ public:
     }
 
 private:
-    lab::Frame frame;
+    const lab::Frame& frame;
     runner::Backend& backend;
     Image radiance;
 };

@@ -79,7 +79,7 @@ private:
             }
         };
         Recorder recorder{*this, {}, startIsSeen};
-        recorder.add(0, light.fromPoints(start));
+        recorder.add(0, light.fromPoints(start) + light.sentEmission(start.point));
         lab::walkPath({scene, light, lab::GlossyModel::diffuseOnly, options.bounces - 1}, start, sequence,
                       recorder);
         return recorder.gathered;
@@ -102,7 +102,7 @@ private:
             distance = hit->distance;
             const Reflector sender = reflectorAt(*hit, ray.direction);
             if (sightOf(sender.point) != Sight::seen) continue;
-            recorder.sum += light.fromPoints(sender);
+            recorder.sum += light.fromPoints(sender) + light.sentEmission(sender.point);
             lab::walkPath({scene, light}, sender, sequence, recorder);
         }
         return recorder.sum;

@@ -28,7 +28,7 @@ private:
     throw InputError(Error{code, std::move(message)});
 }
 
-// Names and other libraries' messages may hold anything; an error is one line of bearable length.
+// Names in files may hold anything; an error is one line of bearable length.
 inline std::string oneLine(std::string text) {
     constexpr size_t longest = 600;
     if (text.size() > longest) text = text.substr(0, longest) + "...";
@@ -50,8 +50,9 @@ auto guardInput(const std::filesystem::path& file, Read&& read) -> Result<declty
         return Error{failure.error().code, prefix + oneLine(failure.error().message)};
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::outOfMemory, prefix + "there is not enough memory to read it"};
-    } catch (const std::exception& failure) {
-        return Error{ErrorCode::invalidData, prefix + oneLine(failure.what())};
+    } catch (const std::exception&) {
+        // A library's words would name things that the file's author has never heard of.
+        return Error{ErrorCode::invalidData, prefix + "it holds something that cannot be read"};
     }
 }
 

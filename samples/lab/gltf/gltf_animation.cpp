@@ -110,9 +110,11 @@ size_t morphTargetCount(const tinygltf::Model& model, const tinygltf::Node& node
 }
 
 void applyChannel(const tinygltf::Model& model, const tinygltf::Animation& animation,
-                  const tinygltf::AnimationChannel& channel, double time, std::vector<NodePose>& poses) {
+                  const tinygltf::AnimationChannel& channel, double time, std::vector<NodePose>& poses,
+                  GltfNotes& notes) {
     // glTF has readers skip a channel without a node: an extension animates something else.
-    if (channel.target_node < 0) return;
+    if (channel.target_node < 0)
+        return notes.add(GltfNotes::Kind::animationPointer, "animation '" + animation.name + "'");
     const tinygltf::Node& node = itemAt(model.nodes, channel.target_node, "node");
     NodePose& pose = poses[static_cast<size_t>(channel.target_node)];
     const std::string& path = channel.target_path;
@@ -147,13 +149,14 @@ const tinygltf::Animation& animationNamed(const tinygltf::Model& model, const st
 
 } // namespace
 
-void applyAnimation(const tinygltf::Model& model, const GltfOptions& options, std::vector<NodePose>& poses) {
+void applyAnimation(const tinygltf::Model& model, const GltfOptions& options, std::vector<NodePose>& poses,
+                    GltfNotes& notes) {
     if (!options.animate || (options.animation.empty() && model.animations.empty())) return;
     if (!std::isfinite(options.time))
         refuse("the time of animation '" + options.animation + "' is not finite", ErrorCode::invalidArgument);
     const tinygltf::Animation& animation = animationNamed(model, options.animation);
     for (const tinygltf::AnimationChannel& channel : animation.channels)
-        applyChannel(model, animation, channel, static_cast<double>(options.time), poses);
+        applyChannel(model, animation, channel, static_cast<double>(options.time), poses, notes);
 }
 
 } // namespace rebound::lab

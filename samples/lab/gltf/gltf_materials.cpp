@@ -90,15 +90,26 @@ Material withoutTextures(const tinygltf::Material& source, const std::string& su
     material.emission = emissionOf(source, subject);
     if (source.alphaMode != "OPAQUE" && source.alphaMode != "MASK" && source.alphaMode != "BLEND")
         refuse(subject + " has the alpha mode '" + source.alphaMode + "'; expected OPAQUE, MASK or BLEND");
-    material.alphaMasked = source.alphaMode == "MASK";
-    material.alphaCutoff = static_cast<float>(source.alphaCutoff);
+    constexpr double halfOpacity = 0.5;
+    const bool blends = source.alphaMode == "BLEND";
+    material.alphaMasked = blends || source.alphaMode == "MASK";
+    material.alphaCutoff = static_cast<float>(blends ? halfOpacity : source.alphaCutoff);
     if (!std::isfinite(material.alphaCutoff)) refuse(subject + " has an alpha cutoff that is not finite");
     return material;
 }
 
+void noteWhatIsLeftOut(const tinygltf::Material& source, const std::string& subject, GltfNotes& notes) {
+    using Kind = GltfNotes::Kind;
+    if (source.alphaMode == "BLEND") notes.add(Kind::blend, subject);
+    if (source.normalTexture.index >= 0) notes.add(Kind::normalTexture, subject);
+    if (source.occlusionTexture.index >= 0) notes.add(Kind::occlusionTexture, subject);
+    if (source.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0)
+        notes.add(Kind::metallicRoughnessTexture, subject);
+}
+
 } // namespace
 
-GltfMaterial readMaterial(const tinygltf::Model& model, int index, GltfTextures& textures) {
+GltfMaterial readMaterial(const tinygltf::Model& model, int index, GltfTextures& textures, GltfNotes& notes) {
     const tinygltf::Material defaults = [] {
         tinygltf::Material material;
         material.name = "default";
@@ -107,23 +118,18 @@ GltfMaterial readMaterial(const tinygltf::Model& model, int index, GltfTextures&
     }();
     const tinygltf::Material& source = index == none ? defaults : itemAt(model.materials, index, "material");
     const std::string subject = "material " + std::to_string(index) + " ('" + source.name + "')";
-    GltfMaterial result{withoutTextures(source, subject), {}};
+    GltfMaterial result{withoutTextures(source, subject), {}, {}};
+    noteWhatIsLeftOut(source, subject, notes);
 
     const tinygltf::TextureInfo& baseColor = source.pbrMetallicRoughness.baseColorTexture;
     if (baseColor.index >= 0) {
         result.material.baseColorTexture = textures.use(baseColor.index);
-        result.mapping = mappingOf(baseColor, subject);
+        result.colorMapping = mappingOf(baseColor, subject);
     }
     const bool emits = result.material.emission != glm::vec3(0.0f);
     if (emits && source.emissiveTexture.index >= 0) {
         result.material.emissionTexture = textures.use(source.emissiveTexture.index);
-        const TextureMapping mapping = mappingOf(source.emissiveTexture, subject);
-        if (baseColor.index >= 0 && mapping != result.mapping)
-            refuse(subject +
-                       " places its base colour and its emission by different texture coordinates, which is "
-                       "not supported",
-                   ErrorCode::unsupported);
-        result.mapping = mapping;
+        result.emissionMapping = mappingOf(source.emissiveTexture, subject);
     }
     return result;
 }

@@ -2,6 +2,7 @@
 // A glTF file's materials.
 #pragma once
 
+#include "lab/gltf/gltf_notes.hpp"
 #include "lab/gltf/gltf_textures.hpp"
 #include "lab/scenes/scene.hpp"
 
@@ -22,12 +23,13 @@ struct TextureMapping {
 
 struct GltfMaterial {
     Material material;
-    TextureMapping mapping;
+    TextureMapping colorMapping;    // of the base colour
+    TextureMapping emissionMapping; // of the emission
 };
 
-// An index of none gives glTF's default material. The alpha mode BLEND counts as opaque, as light passes
-// through nothing that is half there. Metallic and roughness are the factors, without their texture. Base
-// colour and emission must share their texture coordinates, as Mesh holds one set. Throws InputError.
-GltfMaterial readMaterial(const tinygltf::Model&, int material, GltfTextures&);
+// An index of none gives glTF's default material. The alpha mode BLEND is taken for a mask that cuts at half opacity, as
+// light passes through nothing that is half there. Metallic and roughness are the factors, without their texture. Notes
+// what is left out. Throws InputError.
+GltfMaterial readMaterial(const tinygltf::Model&, int material, GltfTextures&, GltfNotes&);
 
 } // namespace rebound::lab

@@ -75,7 +75,9 @@ void unshare(std::vector<T>& values, const std::vector<uint32_t>& indices) {
 // glTF has triangles without normals shaded flat, so that they cannot share vertices.
 void makeFlat(Mesh& mesh) {
     unshare(mesh.positions, mesh.indices);
+    unshare(mesh.colors, mesh.indices);
     unshare(mesh.textureCoordinates, mesh.indices);
+    unshare(mesh.emissionCoordinates, mesh.indices);
     for (size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<uint32_t>(i);
     mesh.normals.resize(mesh.indices.size());
     for (size_t i = 0; i < mesh.indices.size(); ++i) mesh.normals[i] = faceNormal(mesh, i / 3);
@@ -87,7 +89,9 @@ Mesh place(Primitive primitive, const Placement& placement) {
     for (size_t i = 0; i < primitive.positions.size(); ++i)
         mesh.positions.emplace_back(placement.of(i) * glm::dvec4(primitive.positions[i], 1.0));
     mesh.normals = placeNormals(primitive.normals, placement);
+    mesh.colors = std::move(primitive.colors);
     mesh.textureCoordinates = std::move(primitive.textureCoordinates);
+    mesh.emissionCoordinates = std::move(primitive.emissionCoordinates);
     mesh.indices = std::move(primitive.indices);
     for (size_t i = 0; i < mesh.indices.size(); i += 3)
         if (glm::determinant(glm::dmat3(placement.of(mesh.indices[i]))) < 0.0)
@@ -122,11 +126,13 @@ private:
 class GeometryReader {
 public:
     GeometryReader(const tinygltf::Model& gltf, const std::vector<NodePose>& nodePoses,
-                   const std::vector<glm::dmat4>& nodeToWorld, GltfTextures& gltfTextures)
-        : model(gltf), poses(nodePoses), world(nodeToWorld), textures(gltfTextures) {}
+                   const std::vector<glm::dmat4>& nodeToWorld, GltfTextures& gltfTextures,
+                   GltfNotes& gltfNotes)
+        : model(gltf), poses(nodePoses), world(nodeToWorld), textures(gltfTextures), notes(gltfNotes) {}
 
     void addNodes(const std::vector<int>& nodes) {
         GeometrySize size;
+        noteOtherPrimitives(nodes);
         forEachPrimitive(nodes, [&](size_t, const tinygltf::Mesh&, const tinygltf::Primitive& primitive) {
             size.add(model, primitive);
         });
@@ -149,44 +155,59 @@ private:
         }
     }
 
+    void noteOtherPrimitives(const std::vector<int>& nodes) const {
+        for (const int node : nodes) {
+            const int index = model.nodes[static_cast<size_t>(node)].mesh;
+            if (index < 0) continue;
+            const tinygltf::Mesh& mesh = itemAt(model.meshes, index, "mesh");
+            for (size_t i = 0; i < mesh.primitives.size(); ++i)
+                if (!hasTriangles(mesh.primitives[i]))
+                    notes.add(GltfNotes::Kind::noTriangles, "primitive " + std::to_string(i) + " of mesh " +
+                                                                std::to_string(index) + " ('" + mesh.name +
+                                                                "')");
+        }
+    }
+
     void addPrimitive(size_t node, const tinygltf::Mesh& source, const tinygltf::Primitive& primitive) {
-        const auto& [material, mapping] = materialOf(primitive.material);
+        const auto& [number, material] = materialOf(primitive.material);
         const std::vector<double>& weights =
             poses[node].morphWeights.empty() ? source.weights : poses[node].morphWeights;
         const int skin = model.nodes[node].skin;
         const bool skinned = skin >= 0 && primitive.attributes.contains("JOINTS_0");
         Mesh mesh = place(
-            readPrimitive(model, primitive, mapping, weights),
+            readPrimitive(model, primitive, material, weights),
             Placement(skinned ? skinMatrices(model, skin, primitive, vertexCount(model, primitive), world)
                               : std::vector<glm::dmat4>{world[node]}));
         mesh.name = source.name;
-        mesh.material = material;
+        mesh.material = number;
         geometry.meshes.push_back(std::move(mesh));
     }
 
-    const std::pair<int, TextureMapping>& materialOf(int index) {
+    // With its index into the geometry's materials.
+    const std::pair<int, GltfMaterial>& materialOf(int index) {
         const auto known = materials.find(index);
         if (known != materials.end()) return known->second;
-        GltfMaterial read = readMaterial(model, index, textures);
-        geometry.materials.push_back(std::move(read.material));
-        const int place = static_cast<int>(geometry.materials.size()) - 1;
-        return materials.emplace(index, std::make_pair(place, read.mapping)).first->second;
+        GltfMaterial read = readMaterial(model, index, textures, notes);
+        geometry.materials.push_back(read.material);
+        const int number = static_cast<int>(geometry.materials.size()) - 1;
+        return materials.emplace(index, std::make_pair(number, std::move(read))).first->second;
     }
 
     const tinygltf::Model& model;
     const std::vector<NodePose>& poses;
     const std::vector<glm::dmat4>& world;
     GltfTextures& textures;
+    GltfNotes& notes;
     GltfGeometry geometry;
-    std::map<int, std::pair<int, TextureMapping>> materials; // by the file's index
+    std::map<int, std::pair<int, GltfMaterial>> materials; // by the file's index
 };
 
 } // namespace
 
 GltfGeometry readGeometry(const tinygltf::Model& model, const std::vector<int>& nodes,
                           const std::vector<NodePose>& poses, const std::vector<glm::dmat4>& world,
-                          GltfTextures& textures) {
-    GeometryReader reader(model, poses, world, textures);
+                          GltfTextures& textures, GltfNotes& notes) {
+    GeometryReader reader(model, poses, world, textures, notes);
     reader.addNodes(nodes);
     return reader.take();
 }

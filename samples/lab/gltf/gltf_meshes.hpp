@@ -16,13 +16,13 @@ inline constexpr size_t largestVertexCount = size_t(1) << 25;
 inline constexpr size_t largestTriangleCount = size_t(1) << 25;
 
 // The triangles of the given nodes' meshes, one Mesh a primitive, with the materials that they use. Morph
-// targets and skins are applied. A vertex without skin weights follows the skin's first joint. Throws
+// targets and skins are applied; primitives that are no triangles are noted. A vertex without skin weights follows the skin's first joint. Throws
 // InputError.
 struct GltfGeometry {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
 };
 GltfGeometry readGeometry(const tinygltf::Model&, const std::vector<int>& nodes, const std::vector<NodePose>&,
-                          const std::vector<glm::dmat4>& world, GltfTextures&);
+                          const std::vector<glm::dmat4>& world, GltfTextures&, GltfNotes&);
 
 } // namespace rebound::lab

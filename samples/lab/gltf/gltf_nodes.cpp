@@ -135,6 +135,25 @@ void moveNodes(const tinygltf::Model& model, const std::map<std::string, glm::ma
     }
 }
 
+std::vector<int> visibleNodes(const tinygltf::Model& model, const std::vector<int>& nodes) {
+    std::vector<bool> hidden(model.nodes.size(), false);
+    std::vector<int> visible;
+    for (const int number : nodes) {
+        const auto i = static_cast<size_t>(number);
+        const auto extension = model.nodes[i].extensions.find("KHR_node_visibility");
+        if (extension != model.nodes[i].extensions.end() && extension->second.Has("visible")) {
+            const tinygltf::Value& flag = extension->second.Get("visible");
+            if (!flag.IsBool())
+                refuse(nodeName(model, i) + " has a 'visible' that is neither true nor false");
+            hidden[i] = hidden[i] || !flag.Get<bool>();
+        }
+        if (!hidden[i]) visible.push_back(number);
+        else
+            for (const int child : model.nodes[i].children) hidden[static_cast<size_t>(child)] = true;
+    }
+    return visible;
+}
+
 std::vector<int> sceneNodes(const tinygltf::Model& model) {
     const std::vector<int> parents = findParents(model);
     if (model.scenes.empty()) return withDescendants(model, rootNodes(parents));

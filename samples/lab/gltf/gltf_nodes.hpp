@@ -2,6 +2,7 @@
 // A glTF file's node hierarchy at one moment. All functions throw InputError.
 #pragma once
 
+#include "lab/gltf/gltf_notes.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <glm/glm.hpp>
@@ -26,17 +27,21 @@ struct NodePose {
 // Every node as the file states it.
 std::vector<NodePose> restPose(const tinygltf::Model&);
 
-// Replaces what a clip animates; see GltfOptions.
-void applyAnimation(const tinygltf::Model&, const GltfOptions&, std::vector<NodePose>&);
+// Replaces what a clip animates; see GltfOptions. Notes what is animated beside nodes.
+void applyAnimation(const tinygltf::Model&, const GltfOptions&, std::vector<NodePose>&, GltfNotes&);
 
 // From each node's space to the world's. Refuses hierarchies that are not trees.
 std::vector<glm::dmat4> worldMatrices(const tinygltf::Model&, const std::vector<NodePose>&);
 
 // Moves the named nodes, and all that is below each, by transforms in world space. Refuses a name that no node has.
-void moveNodes(const tinygltf::Model&, const std::map<std::string, glm::mat4>&, std::vector<glm::dmat4>& world);
+void moveNodes(const tinygltf::Model&, const std::map<std::string, glm::mat4>&,
+               std::vector<glm::dmat4>& world);
 
 // The default scene's nodes, parents before children; of a file without scenes, all nodes.
 std::vector<int> sceneNodes(const tinygltf::Model&);
+
+// Those of the given nodes, parents before children, that KHR_node_visibility does not hide, themselves or by a parent.
+std::vector<int> visibleNodes(const tinygltf::Model&, const std::vector<int>& nodes);
 
 // "node 3 ('arm')"
 std::string nodeName(const tinygltf::Model&, size_t node);

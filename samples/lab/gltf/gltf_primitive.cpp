@@ -25,24 +25,57 @@ std::vector<glm::vec<size, float>> readVectors(const tinygltf::Model& model, int
     return vectors;
 }
 
-void addMorphTargets(const tinygltf::Model& model, const std::vector<Attributes>& targets,
-                     const std::vector<double>& weights, const std::string& semantic,
-                     std::vector<glm::vec3>& vectors) {
+// A primitive's morph targets and how much each of them counts.
+struct Morph {
+    const std::vector<Attributes>& targets;
+    const std::vector<double>& weights;
+};
+
+template <int size>
+void addMorphTargets(const tinygltf::Model& model, const Morph& morph, const std::string& semantic,
+                     std::vector<glm::vec<size, float>>& vectors) {
+    const auto& [targets, weights] = morph;
     for (size_t target = 0; target < targets.size() && target < weights.size(); ++target) {
         const auto found = targets[target].find(semantic);
         if (found == targets[target].end() || weights[target] == 0.0) continue;
-        const std::vector<glm::vec3> offsets = readVectors<3>(model, found->second, vectors.size());
+        const auto offsets = readVectors<size>(model, found->second, vectors.size());
         for (size_t i = 0; i < vectors.size(); ++i)
             vectors[i] += static_cast<float>(weights[target]) * offsets[i];
     }
 }
 
+// glTF has colours of bytes and shorts normalised, all of them clamped, and opaque where they have three components.
+std::vector<glm::vec4> readColors(const tinygltf::Model& model, const Attributes& attributes,
+                                  const Morph& morph, size_t count) {
+    const std::string semantic = "COLOR_0";
+    const auto found = attributes.find(semantic);
+    if (found == attributes.end()) return {};
+    const tinygltf::Accessor& accessor = itemAt(model.accessors, found->second, "accessor");
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !accessor.normalized)
+        refuse("accessor " + std::to_string(found->second) +
+               " holds colours that are neither floats nor normalised");
+    std::vector<glm::vec4> colors;
+    if (accessor.type == TINYGLTF_TYPE_VEC3) {
+        std::vector<glm::vec3> opaque = readVectors<3>(model, found->second, count);
+        addMorphTargets(model, morph, semantic, opaque);
+        for (const glm::vec3& color : opaque) colors.emplace_back(color, 1.0f);
+    } else {
+        colors = readVectors<4>(model, found->second, count);
+        addMorphTargets(model, morph, semantic, colors);
+    }
+    for (glm::vec4& color : colors) color = glm::clamp(color, 0.0f, 1.0f);
+    return colors;
+}
+
 std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, const Attributes& attributes,
-                                              const TextureMapping& mapping, size_t count) {
+                                              const Morph& morph, const TextureMapping& mapping,
+                                              size_t count) {
     if (mapping.set == none) return {};
-    const auto found = attributes.find("TEXCOORD_" + std::to_string(mapping.set));
+    const std::string semantic = "TEXCOORD_" + std::to_string(mapping.set);
+    const auto found = attributes.find(semantic);
     if (found == attributes.end()) return std::vector<glm::vec2>(count, glm::vec2(0.0f));
     std::vector<glm::vec2> coordinates = readVectors<2>(model, found->second, count);
+    addMorphTargets(model, morph, semantic, coordinates);
     for (glm::vec2& v : coordinates) v = glm::vec2(mapping.transform * glm::vec3(v, 1.0f));
     return coordinates;
 }
@@ -94,16 +127,22 @@ size_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& prim
 }
 
 Primitive readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& source,
-                        const TextureMapping& mapping, const std::vector<double>& morphWeights) {
+                        const GltfMaterial& material, const std::vector<double>& morphWeights) {
     const size_t count = vertexCount(model, source);
+    const Morph morph{source.targets, morphWeights};
     Primitive primitive;
     primitive.positions = readVectors<3>(model, source.attributes.at("POSITION"), count);
-    addMorphTargets(model, source.targets, morphWeights, "POSITION", primitive.positions);
+    addMorphTargets(model, morph, "POSITION", primitive.positions);
     if (const auto normals = source.attributes.find("NORMAL"); normals != source.attributes.end()) {
         primitive.normals = readVectors<3>(model, normals->second, count);
-        addMorphTargets(model, source.targets, morphWeights, "NORMAL", primitive.normals);
+        addMorphTargets(model, morph, "NORMAL", primitive.normals);
     }
-    primitive.textureCoordinates = readTextureCoordinates(model, source.attributes, mapping, count);
+    primitive.colors = readColors(model, source.attributes, morph, count);
+    primitive.textureCoordinates =
+        readTextureCoordinates(model, source.attributes, morph, material.colorMapping, count);
+    if (material.emissionMapping != material.colorMapping)
+        primitive.emissionCoordinates =
+            readTextureCoordinates(model, source.attributes, morph, material.emissionMapping, count);
     primitive.indices = readIndices(model, source, count);
     return primitive;
 }

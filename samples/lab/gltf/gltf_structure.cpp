@@ -2,12 +2,15 @@
 #include "lab/gltf/gltf_structure.hpp"
 
 #include "lab/files/input_error.hpp"
+#include "lab/files/json_text.hpp"
 #include "lab/gltf/gltf_file.hpp"
+#include "lab/gltf/gltf_schema.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string_view>
 
 namespace rebound::lab {
@@ -41,17 +44,23 @@ constexpr std::array<std::string_view, 21> indexNames = {"bufferView",
                                                          "joints",
                                                          "nodes"};
 
-constexpr std::array<std::string_view, 4> understoodExtensions = {
+constexpr std::array<std::string_view, 5> understoodExtensions = {
     "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_texture_transform",
-    "KHR_mesh_quantization"};
+    "KHR_mesh_quantization", "KHR_node_visibility"};
+
+// What the file shows at rest does not depend on these.
+constexpr std::array<std::string_view, 7> extensionsWithoutEffect = {
+    "KHR_materials_variants", "KHR_animation_pointer", "KHR_node_hoverability",
+    "KHR_node_selectability", "KHR_interactivity",     "KHR_xmp",
+    "KHR_xmp_json_ld"};
+
+// Other encodings of what the file holds once more in plain form, unless it requires them.
+constexpr std::array<std::string_view, 7> encodings = {
+    "KHR_draco_mesh_compression", "KHR_meshopt_compression", "EXT_meshopt_compression", "KHR_texture_basisu",
+    "EXT_texture_webp",           "EXT_texture_avif",        "MSFT_texture_dds"};
 
 bool contains(const auto& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// Extensions that only refine how a surface shines do not change what the lab reads.
-bool isIgnorable(const std::string& extension) {
-    return extension.starts_with("KHR_materials_") && extension != "KHR_materials_pbrSpecularGlossiness";
 }
 
 bool isIndex(const Json& value) {
@@ -60,8 +69,7 @@ bool isIndex(const Json& value) {
 
 void checkIndex(const std::string& key, const Json& value) {
     if (!isIndex(value))
-        refuse("a key '" + key + "' is " + value.dump().substr(0, 40) +
-               "; expected an index from 0 to 2147483647");
+        refuse("a key '" + key + "' is " + shown(value) + "; expected an index from 0 to 2147483647");
 }
 
 void checkIndices(const std::string& key, const Json& value) {
@@ -108,7 +116,11 @@ void checkVersion(const Json& root) {
     if (version == asset->end() || !version->is_string())
         refuse("it is not glTF: the key 'version' of 'asset' is missing");
     if (!version->get_ref<const std::string&>().starts_with("2."))
-        refuse("it is glTF " + version->get<std::string>() + "; expected 2.0");
+        refuse("it is glTF " + version->get<std::string>().substr(0, 20) + "; expected 2.0");
+    // A version of which 2.0 is not enough.
+    const auto least = asset->find("minVersion");
+    if (least != asset->end() && (!least->is_string() || *least != "2.0"))
+        refuse(std::string("it needs a reader of glTF ").append(shown(*least)) + "; 2.0 is what is read");
 }
 
 void checkExtensions(const Json& root) {
@@ -118,10 +130,39 @@ void checkExtensions(const Json& root) {
     for (const Json& name : *required) {
         if (!name.is_string()) refuse("the key 'extensionsRequired' is not a list of strings");
         const std::string extension = name.get<std::string>();
-        if (!contains(understoodExtensions, extension) && !isIgnorable(extension))
+        if (!contains(understoodExtensions, extension) && !contains(extensionsWithoutEffect, extension))
             refuse("it requires the extension '" + extension + "', which is not supported",
                    ErrorCode::unsupported);
     }
+}
+
+// The names of all extensions that occur. Nesting was bounded on parsing.
+void collectExtensions(const Json& value, std::set<std::string>& names) {
+    if (value.is_array())
+        for (const Json& item : value) collectExtensions(item, names);
+    if (!value.is_object()) return;
+    for (const auto& [key, item] : value.items()) {
+        if (key == "extras") continue;
+        if (key == "extensions" && item.is_object())
+            for (const auto& [name, extension] : item.items()) names.insert(name);
+        collectExtensions(item, names);
+    }
+}
+
+void noteExtensions(const Json& root, GltfNotes& notes) {
+    std::set<std::string> names;
+    collectExtensions(root, names);
+    std::string ofSurfaces, others;
+    for (const std::string& name : names) {
+        if (contains(understoodExtensions, name) || contains(extensionsWithoutEffect, name) ||
+            contains(encodings, name))
+            continue;
+        std::string& list = name.starts_with("KHR_materials_") ? ofSurfaces : others;
+        list += (list.empty() ? "" : ", ") + shown(name);
+    }
+    if (!ofSurfaces.empty())
+        notes.add("it uses " + ofSurfaces + ", which is left out: every surface is opaque and Lambertian");
+    if (!others.empty()) notes.add("it uses " + others + ", which is not known and left out");
 }
 
 void checkLists(const Json& root) {
@@ -142,13 +183,13 @@ std::vector<GltfBufferSource> listBuffers(const Json& root, size_t binarySize) {
         buffer.length = byteCount(item, "byteLength", subject, true);
         if (buffer.length == 0) refuse(subject + " has a 'byteLength' of 0");
         const auto uri = item.find("uri");
-        if (uri != item.end() && !uri->is_string()) refuse(subject + " has a 'uri' that is not a string");
+        if (uri != item.end() && !uri->is_string())
+            refuse(subject + " has a 'uri' that is " + shown(*uri) + "; expected a string");
         if (uri != item.end()) buffer.uri = uri->get<std::string>();
         if (buffer.uri.empty() && buffers.empty() && buffer.length > binarySize)
             refuse(subject + " has a 'byteLength' of " + std::to_string(buffer.length) +
                    ", but no 'uri' and " + std::to_string(binarySize) + " bytes of binary data");
         if (buffer.uri.empty() && !buffers.empty()) refuse(subject + " lacks 'uri'");
-        buffer.external = !buffer.uri.empty() && !tinygltf::IsDataURI(buffer.uri);
         buffers.push_back(std::move(buffer));
     }
     return buffers;
@@ -172,11 +213,14 @@ void checkBufferViews(const Json& root, const std::vector<GltfBufferSource>& buf
 
 } // namespace
 
-std::vector<GltfBufferSource> checkGltfStructure(const nlohmann::json& root, size_t binarySize) {
+std::vector<GltfBufferSource> checkGltfStructure(const nlohmann::json& root, size_t binarySize,
+                                                 GltfNotes& notes) {
     checkVersion(root);
     checkExtensions(root);
     checkLists(root);
     checkAllIndices(root);
+    checkGltfSchema(root);
+    noteExtensions(root, notes);
     std::vector<GltfBufferSource> buffers = listBuffers(root, binarySize);
     checkBufferViews(root, buffers);
     return buffers;

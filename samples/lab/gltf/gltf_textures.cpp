@@ -117,15 +117,18 @@ int GltfTextures::use(int gltfTexture) {
         const tinygltf::Sampler& sampler = itemAt(model.samplers, source.sampler, "sampler");
         wrapS = wrapOf(sampler.wrapS, subject);
         wrapT = wrapOf(sampler.wrapT, subject);
+        if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST)
+            notes.add(GltfNotes::Kind::nearestFilter, subject);
     }
     const auto key = std::make_tuple(source.source, wrapS, wrapT);
     if (const auto known = indices.find(key); known != indices.end()) return known->second;
-    const bool external = image.image.empty();
-    const std::string imageName = "image " + std::to_string(source.source) + " ('" +
-                                  (external ? image.uri : image.name).substr(0, 200) + "')";
-    Texture texture =
-        decode(external ? readFileBytes(resolveUri(file, image.uri), largestGltfFile, file) : image.image,
-               imageName, total);
+    const bool external = !image.uri.empty();
+    const std::string shown = external ? image.uri : image.name;
+    const std::string imageName =
+        "image " + std::to_string(source.source) + (shown.empty() ? "" : " ('" + shown.substr(0, 200) + "')");
+    Texture texture = decode(
+        external ? readFileBytes(resolveUri(file, image.uri, imageName), largestGltfFile, file) : image.image,
+        imageName, total);
     texture.name = image.name.empty() ? image.uri : image.name;
     texture.wrapS = wrapS;
     texture.wrapT = wrapT;

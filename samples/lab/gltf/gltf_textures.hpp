@@ -2,6 +2,7 @@
 // A glTF file's images, decoded as materials ask for them.
 #pragma once
 
+#include "lab/gltf/gltf_notes.hpp"
 #include "lab/scenes/scene.hpp"
 
 #include <tiny_gltf.h>
@@ -21,11 +22,11 @@ inline constexpr size_t largestTextureTotal = size_t(1) << 28; // of all texture
 
 class GltfTextures {
 public:
-    GltfTextures(const tinygltf::Model& gltf, std::filesystem::path gltfFile)
-        : model(gltf), file(std::move(gltfFile)) {}
+    GltfTextures(const tinygltf::Model& gltf, std::filesystem::path gltfFile, GltfNotes& gltfNotes)
+        : model(gltf), file(std::move(gltfFile)), notes(gltfNotes) {}
 
     // The index into take()'s list of a texture of the file, decoded on its first use. PNG and JPEG; 16-bit
-    // channels are cut to 8. Throws InputError.
+    // channels are cut to 8. Filters other than bilinear are noted. Throws InputError.
     int use(int gltfTexture);
 
     std::vector<Texture> take() { return std::move(textures); }
@@ -33,6 +34,7 @@ public:
 private:
     const tinygltf::Model& model;
     std::filesystem::path file;
+    GltfNotes& notes;
     std::vector<Texture> textures;
     std::map<std::tuple<int, Wrap, Wrap>, int> indices; // by image and wrapping
     size_t total = 0;                                   // [texels]

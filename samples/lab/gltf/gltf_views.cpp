@@ -128,7 +128,7 @@ std::vector<CameraView> readCameras(const tinygltf::Model& model, const std::vec
 }
 
 std::vector<Light> readLights(const tinygltf::Model& model, const std::vector<int>& nodes,
-                              const std::vector<glm::dmat4>& world) {
+                              const std::vector<glm::dmat4>& world, GltfNotes& notes) {
     std::vector<Light> lights;
     for (const int number : nodes) {
         const auto i = static_cast<size_t>(number);
@@ -138,7 +138,10 @@ std::vector<Light> readLights(const tinygltf::Model& model, const std::vector<in
             refuse(nodeName(model, i) + " names no light");
         const int index = extension->second.Get("light").GetNumberAsInt();
         const tinygltf::Light& source = itemAt(model.lights, index, "light");
-        Light light = readLight(source, world[i], "light " + std::to_string(index));
+        const std::string subject = "light " + std::to_string(index);
+        Light light = readLight(source, world[i], subject);
+        const bool hasRange = source.range > 0.0 && std::isfinite(source.range);
+        if (hasRange && light.type != LightType::directional) notes.add(GltfNotes::Kind::lightRange, subject);
         light.name = source.name.empty() ? model.nodes[i].name : source.name;
         lights.push_back(std::move(light));
     }

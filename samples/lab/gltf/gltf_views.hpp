@@ -2,6 +2,7 @@
 // A glTF file's cameras and KHR_lights_punctual in world space.
 #pragma once
 
+#include "lab/gltf/gltf_notes.hpp"
 #include "lab/scenes/scene.hpp"
 
 #include <glm/glm.hpp>
@@ -16,8 +17,8 @@ namespace rebound::lab {
 std::vector<CameraView> readCameras(const tinygltf::Model&, const std::vector<int>& nodes,
                                     const std::vector<glm::dmat4>& world);
 
-// `range` is ignored: light falls off with the square of the distance alone. Throws InputError.
+// `range` is left out and noted: light falls off with the square of the distance alone. Throws InputError.
 std::vector<Light> readLights(const tinygltf::Model&, const std::vector<int>& nodes,
-                              const std::vector<glm::dmat4>& world);
+                              const std::vector<glm::dmat4>& world, GltfNotes&);
 
 } // namespace rebound::lab

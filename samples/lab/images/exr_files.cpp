@@ -2,6 +2,8 @@
 #include "lab/files/output_file.hpp"
 #include "lab/images/image_files.hpp"
 
+#include "lab/images/exr_channels.hpp"
+#include "lab/images/exr_colors.hpp"
 #include "lab/images/exr_header.hpp"
 
 #include <ImfChannelList.h>
@@ -13,8 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <new>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace rebound::lab {
 
@@ -74,46 +78,99 @@ std::string encodeExr(const Image& image, std::vector<Sample> samples, Imf::Pixe
     return stream.str();
 }
 
-// R,G,B with or without A, or Y; nothing where the file has none of these.
-std::vector<std::string> colourChannels(const Imf::ChannelList& channels) {
-    const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
-    if (has("R") && has("G") && has("B"))
-        return has("A") ? std::vector<std::string>{"R", "G", "B", "A"}
-                        : std::vector<std::string>{"R", "G", "B"};
-    if (has("Y") && !has("RY") && !has("BY")) return {"Y"};
-    return {};
+Extent2D sizeOf(const Imath::Box2i& window) {
+    return {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
 }
 
-Result<std::vector<std::string>> readableChannels(const Imf::ChannelList& channels) {
-    const std::vector<std::string> names = colourChannels(channels);
-    if (names.empty())
-        return Error{ErrorCode::invalidData, "it has none of the channels Y; R, G, B; R, G, B, A"};
-    for (const std::string& name : names) {
-        const Imf::Channel& channel = channels[name];
-        if (channel.type != Imf::HALF && channel.type != Imf::FLOAT)
-            return Error{ErrorCode::invalidData,
-                         "channel " + name + " holds integers; expected half or float"};
-        if (channel.xSampling != 1 || channel.ySampling != 1)
-            return Error{ErrorCode::invalidData,
-                         "channel " + name + " is subsampled; expected one value a pixel"};
-    }
-    return names;
-}
-
-Result<Image> decodeExr(const fs::path& path) {
-    if (auto checked = checkExrHeader(path); !checked) return checked.error();
-    Imf::InputFile file(path.c_str(), noThreads);
-    auto names = readableChannels(file.header().channels());
-    if (!names) return names.error();
+Image readPixels(Imf::InputFile& file, const ExrChannels& channels) {
     const Imath::Box2i window = file.header().dataWindow();
-    Image image({window.max.x - window.min.x + 1, window.max.y - window.min.y + 1}, int(names->size()));
+    Image image(sizeOf(window), int(channels.names.size()));
     Imf::FrameBuffer frame;
-    const size_t pixelStride = sizeof(float) * names->size();
-    for (size_t c = 0; c < names->size(); ++c)
-        frame.insert((*names)[c], Imf::Slice::Make(Imf::FLOAT, image.data.data() + c, window, pixelStride,
-                                                   pixelStride * size_t(image.width)));
+    const size_t pixelStride = sizeof(float) * channels.names.size();
+    for (size_t c = 0; c < channels.names.size(); ++c)
+        frame.insert(channels.names[c], Imf::Slice::Make(Imf::FLOAT, image.data.data() + c, window,
+                                                         pixelStride, pixelStride * size_t(image.width)));
     file.setFrameBuffer(frame);
     file.readPixels(window.min.y, window.max.y);
+    return image;
+}
+
+// Cut to the display window, or set into it.
+Image display(Image stored, const Imath::Box2i& data, const Imath::Box2i& shown, float outside) {
+    if (data == shown) return stored;
+    Image image(sizeOf(shown), stored.channels, outside);
+    const int left = std::max(data.min.x, shown.min.x), right = std::min(data.max.x, shown.max.x);
+    for (int y = std::max(data.min.y, shown.min.y); y <= std::min(data.max.y, shown.max.y); ++y)
+        std::copy_n(stored.at(left - data.min.x, y - data.min.y),
+                    size_t(right - left + 1) * size_t(stored.channels),
+                    image.at(left - shown.min.x, y - shown.min.y));
+    return image;
+}
+
+std::string toText(const Imath::Box2i& window) {
+    return std::to_string(window.min.x) + ", " + std::to_string(window.min.y) + " to " +
+           std::to_string(window.max.x) + ", " + std::to_string(window.max.y);
+}
+
+void noteHeader(const Imf::Header& header, const ExrChannels& channels, bool converts,
+                std::vector<std::string>& notes) {
+    const Imath::Box2i data = header.dataWindow(), shown = header.displayWindow();
+    if (data != shown) {
+        const bool covers = data.min.x <= shown.min.x && data.min.y <= shown.min.y &&
+                            data.max.x >= shown.max.x && data.max.y >= shown.max.y;
+        notes.push_back("its data window, " + toText(data) + ", is not its display window, " + toText(shown) +
+                        ", whose size the picture has" +
+                        (covers ? "" : "; where they do not overlap it holds nothing"));
+    }
+    if (std::abs(header.pixelAspectRatio() - 1.0f) > 1e-3f)
+        notes.push_back("its pixels are " + std::to_string(header.pixelAspectRatio()) +
+                        " times as wide as high; they are taken for squares");
+    if (converts) notes.push_back("its header states other primaries; its colours are converted to Rec. 709");
+    std::string others;
+    for (const std::string& name : channels.others)
+        others += (others.empty() ? "" : ", ") + name.substr(0, 40);
+    if (!others.empty()) notes.push_back("its channels " + others + " are left out");
+}
+
+// Runs a step; OpenEXR's words would name things that a file's author has never heard of.
+template <class Step>
+auto orProblem(const char* problem, const Step& step) -> decltype(step()) {
+    try {
+        return step();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        return Error{ErrorCode::invalidData, problem};
+    }
+}
+
+Result<Image> decodeExr(const fs::path& path, const ExrReading& reading) {
+    constexpr const char* badHeader = "its header is damaged or cut off, or it is no OpenEXR file";
+    if (auto checked = orProblem(badHeader, [&] { return checkExrHeader(path); }); !checked)
+        return checked.error();
+    std::optional<Imf::InputFile> file;
+    auto channels = orProblem(badHeader, [&]() -> Result<ExrChannels> {
+        file.emplace(path.c_str(), noThreads);
+        return chooseExrChannels(file->header().channels(), reading.content);
+    });
+    if (!channels) return channels.error();
+    const Imf::Header& header = file->header();
+    std::optional<glm::dmat3> conversion;
+    if (channels->areColors && reading.content != ExrContent::normal) {
+        auto primaries = toRec709(header);
+        if (!primaries) return primaries.error();
+        conversion = *primaries;
+    }
+    auto stored = orProblem("its pixels are damaged or cut off",
+                            [&]() -> Result<Image> { return readPixels(*file, *channels); });
+    if (!stored) return stored;
+    Image image = display(*std::move(stored), header.dataWindow(), header.displayWindow(), reading.outside);
+    if (conversion) convertColors(image, *conversion);
+    if (reading.notes) {
+        std::vector<std::string> notes;
+        noteHeader(header, *channels, conversion.has_value(), notes);
+        for (const std::string& note : notes) reading.notes->push_back(path.string() + ": " + note);
+    }
     return image;
 }
 
@@ -128,25 +185,23 @@ Result<> writeExr(const fs::path& path, const Image& image, ExrPrecision precisi
         return writeFile(path, std::as_bytes(std::span(bytes)));
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::outOfMemory, "cannot write " + path.string() + ": out of memory"};
-    } catch (const std::exception& failure) {
-        return Error{ErrorCode::inputOutput, "cannot write " + path.string() + ": " + failure.what()};
+    } catch (const std::exception&) {
+        return Error{ErrorCode::inputOutput, "cannot write " + path.string() + ": it cannot be encoded"};
     }
 }
 
-Result<Image> readExr(const fs::path& path) {
+Result<Image> readExr(const fs::path& path, const ExrReading& reading) {
     std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
     if (!fs::exists(status)) return unreadable(path, ErrorCode::notFound, "there is no such file");
     if (!fs::is_regular_file(status))
         return unreadable(path, ErrorCode::inputOutput, "it is not a regular file");
     try {
-        auto image = decodeExr(path);
+        auto image = decodeExr(path, reading);
         if (!image) return unreadable(path, image.error().code, image.error().message);
         return image;
     } catch (const std::bad_alloc&) {
         return unreadable(path, ErrorCode::outOfMemory, "out of memory");
-    } catch (const std::exception& thrown) {
-        return unreadable(path, ErrorCode::invalidData, thrown.what());
     }
 }
 

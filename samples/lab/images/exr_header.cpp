@@ -40,6 +40,19 @@ int64_t sampleSize(const Imf::ChannelList& channels) {
     return size;
 }
 
+Result<> checkSize(const Imath::Box2i& window) {
+    const int64_t width = int64_t(window.max.x) - window.min.x + 1;
+    const int64_t height = int64_t(window.max.y) - window.min.y + 1;
+    if (width >= 1 && height >= 1 && width <= maximumExtent && height <= maximumExtent) return {};
+    return Error{ErrorCode::invalidData, "its image is " + std::to_string(width) + " x " +
+                                             std::to_string(height) + " pixels; expected 1 to " +
+                                             std::to_string(maximumExtent) + " a side"};
+}
+
+bool overlap(const Imath::Box2i& a, const Imath::Box2i& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
+}
+
 bool deflates(Imf::Compression compression) {
     return compression == Imf::NO_COMPRESSION || compression == Imf::RLE_COMPRESSION ||
            compression == Imf::ZIPS_COMPRESSION || compression == Imf::ZIP_COMPRESSION;
@@ -53,16 +66,18 @@ Result<> checkExrHeader(const std::filesystem::path& path) {
     if (!version) return version.error();
     if (Imf::isNonImage(*version))
         return Error{ErrorCode::invalidData, "it holds deep data; expected a flat image"};
+    if (Imf::isMultiPart(*version))
+        return Error{ErrorCode::invalidData, "it holds several parts; expected one image"};
     Imf::Header header;
     int flags = *version;
     header.readFrom(stream, flags);
     const Imath::Box2i window = header.dataWindow();
+    for (const Imath::Box2i& box : {window, header.displayWindow()})
+        if (auto checked = checkSize(box); !checked) return checked;
+    if (!overlap(window, header.displayWindow()))
+        return Error{ErrorCode::invalidData, "its data window lies outside its display window"};
     const int64_t width = int64_t(window.max.x) - window.min.x + 1;
     const int64_t height = int64_t(window.max.y) - window.min.y + 1;
-    if (width < 1 || height < 1 || width > maximumExtent || height > maximumExtent)
-        return Error{ErrorCode::invalidData, "its image is " + std::to_string(width) + " x " +
-                                                 std::to_string(height) + " pixels; expected 1 to " +
-                                                 std::to_string(maximumExtent) + " a side"};
     const auto bytes = int64_t(std::filesystem::file_size(path));
     if (deflates(header.compression()) &&
         width * height * sampleSize(header.channels()) / largestDeflateRatio > bytes)

@@ -8,8 +8,8 @@
 
 namespace rebound::lab {
 
-// Expects a flat image within maximumExtent, and a file long enough to hold it. May throw what OpenEXR
-// throws.
+// Expects one flat image within maximumExtent, whose windows overlap, and a file long enough to hold it. May throw what
+// OpenEXR throws.
 Result<> checkExrHeader(const std::filesystem::path&);
 
 } // namespace rebound::lab

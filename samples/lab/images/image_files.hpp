@@ -16,8 +16,24 @@ enum class ExrPrecision { half, full };
 // Channels R, G, B (and A), or Y; zip compressed. Values beyond half's range are stored as its largest.
 Result<> writeExr(const std::filesystem::path&, const Image&, ExrPrecision = ExrPrecision::half);
 
-// Any of Y | R,G,B | R,G,B,A, half or float.
-Result<Image> readExr(const std::filesystem::path&);
+// What a picture's values stand for, and so in which channels they may be.
+enum class ExrContent {
+    any,    // Y, Z or V; R,G,B with or without A; X,Y,Z
+    color,  // R,G,B, or Y for grey
+    normal, // R,G,B or X,Y,Z
+    depth,  // Y, Z or V, or a single channel of any name
+};
+
+struct ExrReading {
+    ExrContent content = ExrContent::any;
+    float outside = 0.0f; // of pixels of the display window that the file holds nothing of
+    std::vector<std::string>* notes = nullptr; // gets sentences of what was converted or left out
+};
+
+// A picture of the size of the display window, half or float, of a file with one part and one layer. Colours become
+// those of Rec. 709 where the header states other primaries. Channels that leave open which of them are meant are an
+// error that names them.
+Result<Image> readExr(const std::filesystem::path&, const ExrReading& = {});
 
 // The lab's one tone curve, stated wherever a picture is shown: exposure, then 1 - exp(-x), then sRGB.
 struct ToneCurve {

@@ -22,7 +22,7 @@ Result<std::vector<std::byte>> encodePng(const Picture& picture) {
     std::vector<std::byte> bytes(raw + raw / 64 + headersAndChunks);
     png_alloc_size_t size = bytes.size();
     if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr) == 0)
-        return Error{ErrorCode::inputOutput, std::string("libpng: ") + image.message};
+        return Error{ErrorCode::inputOutput, "it cannot be encoded"};
     bytes.resize(size);
     return bytes;
 }

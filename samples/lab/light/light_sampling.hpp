@@ -36,6 +36,11 @@ public:
     // surfaces.
     glm::vec3 fromSurfaces(const Reflector&, SampleSequence&) const;
 
+    // What a surface emits, where that is no direct light: radiance like that which it reflects [W m^-2 sr^-1].
+    glm::vec3 sentEmission(const SurfacePoint& point) const {
+        return scene->scene().emissiveMaterialsLight ? glm::vec3(0.0f) : point.emission;
+    }
+
     // Follows a direction that was sampled with that density per solid angle.
     Arrival follow(const SurfacePoint&, glm::vec3 direction, float density) const;
 

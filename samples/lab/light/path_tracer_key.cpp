@@ -35,7 +35,9 @@ void add(ContentHash& hash, const Mesh& mesh) {
     hash.add(mesh.material);
     hash.addRange(mesh.positions);
     hash.addRange(mesh.normals);
+    hash.addRange(mesh.colors);
     hash.addRange(mesh.textureCoordinates);
+    hash.addRange(mesh.emissionCoordinates);
     hash.addRange(mesh.indices);
 }
 

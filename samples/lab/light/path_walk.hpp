@@ -20,7 +20,8 @@ struct PathRules {
 inline constexpr int firstBounceOfChance = 4;
 
 // Estimates the radiance that the start reflects to its viewer, but for that of points, which is exact and
-// costs the same every time: LightSampling::fromPoints() of the start is the caller's. Calls
+// costs the same every time: LightSampling::fromPoints() of the start is the caller's. What emissive surfaces send that
+// are no direct light counts as if they reflected it. Calls
 //   recorder.add(int bounces, glm::vec3 radiance)         what light brings that met so many surfaces before
 //   the start recorder.enter(int bounces, const Reflector&) -> bool   for each of these surfaces; false ends
 //   the path
@@ -28,7 +29,9 @@ template <class Recorder>
 void walkPath(const PathRules& rules, Reflector at, SampleSequence& sequence, Recorder&& recorder) {
     glm::vec3 throughput(1.0f);
     for (int bounce = 0;; ++bounce) {
-        if (bounce > 0) recorder.add(bounce, throughput * rules.light.fromPoints(at));
+        if (bounce > 0)
+            recorder.add(bounce,
+                         throughput * (rules.light.fromPoints(at) + rules.light.sentEmission(at.point)));
         if (rules.light.hasExtendedLight())
             recorder.add(bounce, throughput * rules.light.fromSurfaces(at, sequence));
         else if (bounce == rules.bounces) return;

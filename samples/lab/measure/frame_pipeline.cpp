@@ -24,7 +24,12 @@ size_t limitToRange(lab::Image& image) {
 Result<runner::PlanInputs> FramePipeline::inputsOf(const lab::Frame& frame) {
     outgoing = lab::outgoingRadiance(frame);
     limited = limitToRange(outgoing);
-    return configured.inputs(frame, outgoing);
+    // What is lit and what is sent differ only by emission that is direct light already.
+    if (frame.emission.empty() || !frame.emissionIsDirectLight)
+        return configured.inputs(frame, outgoing, outgoing);
+    lab::Image sent = lab::gatheredRadiance(frame);
+    limitToRange(sent);
+    return configured.inputs(frame, sent, outgoing);
 }
 
 // As the technique got it.

@@ -45,6 +45,12 @@ glm::vec2 textureCoordinate(const Mesh& mesh, const SurfaceLocation& at) {
                : interpolate(mesh.textureCoordinates, corners(mesh, at.triangle), at);
 }
 
+glm::vec2 emissionCoordinate(const Mesh& mesh, const SurfaceLocation& at) {
+    return mesh.emissionCoordinates.empty()
+               ? textureCoordinate(mesh, at)
+               : interpolate(mesh.emissionCoordinates, corners(mesh, at.triangle), at);
+}
+
 // A mesh with what its rays look up; the address is the geometry's user data in Embree.
 struct MeshLookup {
     const Mesh* mesh = nullptr;
@@ -54,7 +60,8 @@ struct MeshLookup {
 
     bool isHole(const SurfaceLocation& at) const {
         if (!material->alphaMasked) return false;
-        const float opacity = color ? sampleOpacity(*color, textureCoordinate(*mesh, at)) : 1.0f;
+        float opacity = color ? sampleOpacity(*color, textureCoordinate(*mesh, at)) : 1.0f;
+        if (!mesh->colors.empty()) opacity *= interpolate(mesh->colors, corners(*mesh, at.triangle), at).a;
         return opacity * material->baseColor.a < material->alphaCutoff;
     }
 };
@@ -258,12 +265,13 @@ SurfacePoint EmbreeScene::surfaceAt(const SurfaceLocation& at, glm::vec3 viewDir
     const float length = glm::length(interpolated);
     point.shadingNormal = length > 0.0f ? turned(interpolated / length) : point.geometricNormal;
 
-    const glm::vec2 coordinate = textureCoordinate(mesh, at);
     point.albedo = glm::vec3(material.baseColor);
-    if (lookup.color) point.albedo *= glm::vec3(sampleTexture(*lookup.color, coordinate));
-    if (state->scene->emissiveMaterialsLight && material.emission != glm::vec3(0.0f)) {
+    if (lookup.color) point.albedo *= glm::vec3(sampleTexture(*lookup.color, textureCoordinate(mesh, at)));
+    if (!mesh.colors.empty()) point.albedo *= glm::vec3(interpolate(mesh.colors, corner, at));
+    if (material.emission != glm::vec3(0.0f)) {
         point.emission = material.emission;
-        if (lookup.emission) point.emission *= glm::vec3(sampleTexture(*lookup.emission, coordinate));
+        if (lookup.emission)
+            point.emission *= glm::vec3(sampleTexture(*lookup.emission, emissionCoordinate(mesh, at)));
     }
     return point;
 }

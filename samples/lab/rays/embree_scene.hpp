@@ -33,7 +33,7 @@ struct SurfacePoint {
     glm::vec3 geometricNormal{0.0f}; // unit, of the triangle, turned towards the viewer
     glm::vec3 shadingNormal{0.0f};   // unit, interpolated between corners, turned towards the viewer
     glm::vec3 albedo{0.0f};          // diffuse reflectance
-    glm::vec3 emission{0.0f}; // radiance [W m^-2 sr^-1]; 0 where the scene's emissive materials give no light
+    glm::vec3 emission{0.0f};        // radiance [W m^-2 sr^-1]
     float clearance = 0.0f; // rays that start this far off, along the geometric normal, miss this surface [m]
 };
 

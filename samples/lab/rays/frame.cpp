@@ -27,14 +27,21 @@ Result<> checkImage(const Frame& frame, const char* name, const Image& image, in
     return {};
 }
 
-} // namespace
-
-Image outgoingRadiance(const Frame& frame) {
+// Direct light that surfaces reflect, and what is added to it; empty: nothing.
+Image reflectedAnd(const Image& emission, const Frame& frame) {
     if (!validate(frame)) return {};
-    Image radiance = frame.emission.empty() ? Image(frame.direct.extent(), 3) : frame.emission;
+    Image radiance = emission.empty() ? Image(frame.direct.extent(), 3) : emission;
     for (size_t i = 0; i < radiance.data.size(); ++i)
         radiance.data[i] += frame.albedo.data[i] * frame.direct.data[i];
     return radiance;
+}
+
+} // namespace
+
+Image outgoingRadiance(const Frame& frame) { return reflectedAnd(frame.emission, frame); }
+
+Image gatheredRadiance(const Frame& frame) {
+    return reflectedAnd(frame.emissionIsDirectLight ? Image() : frame.emission, frame);
 }
 
 Result<> validate(const Frame& frame) {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace rebound::lab {
@@ -19,6 +20,10 @@ struct Frame {
     Image albedo;   // 3 channels: diffuse reflectance
     Image direct;   // 3 channels: E_direct / pi, albedo not in it [W m^-2 sr^-1]
     Image emission; // 3 channels: radiance the surface itself emits [W m^-2 sr^-1]; empty: nothing emits
+    // Whether `direct` holds the light that arrives straight from what emits. False: it is left to be gathered.
+    bool emissionIsDirectLight = true;
+    // What was converted, taken for something else or left out of its files: sentences.
+    std::vector<std::string> notes;
     // 2 channels: where what a pixel shows was in the frame before, less where it is [pixels, x to the right, y with the
     // rows]; behindCamera where that was behind its camera; 0 where nothing is shown. Empty: there was no frame before.
     Image motion;
@@ -50,11 +55,17 @@ struct FrameOptions {
 // options give the same bits, whatever the thread count.
 Result<Frame> renderFrame(const Scene&, const CameraView&, const FrameOptions&);
 
-// Outgoing diffuse radiance, albedo * direct + emission: what a surface sends to others. Empty for an invalid frame.
+// Outgoing diffuse radiance, albedo * direct + emission: what a camera sees. Empty for an invalid frame.
 Image outgoingRadiance(const Frame&);
 
-// Reads depth.exr, normal.exr, albedo.exr, direct.exr, emission.exr (optional) and the camera from meta.json.
-// A view file and a camera's name replace meta.json's camera.
+// What a surface sends to others as indirect light: albedo * direct, and emission where it is not direct light already,
+// as it would arrive twice. Empty for an invalid frame.
+Image gatheredRadiance(const Frame&);
+
+// Depth that is infinite, beyond 1e7 m, or at a far plane or half precision's end, counts as no surface, and a note says
+// so. Reads depth.exr, normal.exr, albedo.exr, direct.exr, emission.exr (optional) and the camera from meta.json.
+// A view file and a camera's name replace meta.json's camera; meta.json's or the view file's key "emissive_materials" says
+// whether emission is direct light.
 Result<Frame> readFrame(const std::filesystem::path& folder, const std::filesystem::path& viewFile = {},
                         const std::string& cameraName = {});
 

@@ -10,7 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <new>
+#include <utility>
 
 namespace rebound::lab {
 
@@ -30,60 +33,128 @@ Image toThreeChannels(const Image& image) {
     return result;
 }
 
-Result<> readColor(const fs::path& file, Image& output) {
-    auto image = readExr(file);
+Result<> readThree(const fs::path& file, ExrContent content, Frame& frame, Image& output) {
+    auto image = readExr(file, {content, 0.0f, &frame.notes});
     if (!image) return image.error();
     output = image->channels == 3 ? *std::move(image) : toThreeChannels(*image);
     return {};
 }
 
-Result<> readDepth(const fs::path& file, Image& output) {
-    auto image = readExr(file);
+Result<> readDepth(const fs::path& file, Frame& frame) {
+    auto image = readExr(file, {ExrContent::depth, 0.0f, &frame.notes});
     if (!image) return image.error();
-    if (image->channels != 1)
-        return Error{ErrorCode::invalidData, file.string() + " has " + std::to_string(image->channels) +
-                                                 " channels; expected depth in one channel, Y"};
-    output = *std::move(image);
+    frame.depth = *std::move(image);
     return {};
 }
 
-Result<CameraView> readMetaCamera(const fs::path& file) {
+// How a frame was taken.
+struct Taken {
+    CameraView camera;
+    bool emissionIsDirectLight = true;
+};
+
+Result<Taken> readMeta(const fs::path& file) {
     const auto meta = guardInput(file, [&] {
         const std::vector<uint8_t> bytes = readFileBytes(file, largestMetaFile, file);
         auto root = parseJsonObject({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
                                     "a frame's description");
         if (!root.contains("camera")) refuse("\"camera\" is missing");
+        if (root.contains("emissive_materials") && !root["emissive_materials"].is_boolean())
+            refuse(std::string("\"emissive_materials\" is ").append(shown(root["emissive_materials"])) +
+                   "; expected true or false");
         return root;
     });
     if (!meta) return meta.error();
-    return cameraFromJson((*meta)["camera"], file.string() + ": camera");
+    auto camera = cameraFromJson((*meta)["camera"], file.string() + ": camera");
+    if (!camera) return camera.error();
+    return Taken{*std::move(camera), meta->value("emissive_materials", true)};
 }
 
-Result<CameraView> readCamera(const fs::path& folder, const fs::path& viewFile, const std::string& name) {
+Result<Taken> readTaken(const fs::path& folder, const fs::path& viewFile, const std::string& name) {
     if (!viewFile.empty()) {
         Scene onlyCameras;
         if (auto applied = applyViewFile(viewFile, onlyCameras); !applied) return applied.error();
-        return findCamera(onlyCameras, name);
+        if (onlyCameras.cameras.empty())
+            return Error{ErrorCode::notFound, std::string("'").append(viewFile.string()) +
+                                                  "': it has no cameras; expected the one of the frame"};
+        auto camera = findCamera(onlyCameras, name);
+        if (!camera) return camera.error();
+        return Taken{*std::move(camera), onlyCameras.emissiveMaterialsLight};
     }
-    auto camera = readMetaCamera(folder / "meta.json");
-    if (camera && !name.empty() && name != camera->name)
+    auto taken = readMeta(folder / "meta.json");
+    if (taken && !name.empty() && name != taken->camera.name)
         return Error{ErrorCode::notFound, "camera \"" + name + "\" is not the one of " +
-                                              (folder / "meta.json").string() + ", \"" + camera->name + "\""};
-    return camera;
+                                              (folder / "meta.json").string() + ", \"" + taken->camera.name +
+                                              "\""};
+    return taken;
+}
+
+std::string percentOf(size_t count, size_t all) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * double(count) / double(all));
+    return text;
+}
+
+// Far behind all else, at one depth, is sky, or a wall that faces the camera.
+void noteBackground(Frame& frame, const fs::path& file) {
+    const std::vector<float>& depth = frame.depth.data;
+    constexpr size_t share = 20; // a twentieth of the pixels
+    constexpr float farBehind = 1.5f;
+    float largest = 0.0f, next = 0.0f;
+    for (const float d : depth) {
+        if (d == 0.0f || !std::isfinite(d)) return; // who marks empty pixels marks the sky
+        if (d > largest) next = std::exchange(largest, d);
+        else if (d < largest) next = std::max(next, d);
+    }
+    const auto count = size_t(std::count(depth.begin(), depth.end(), largest));
+    if (next > 0.0f && largest > farBehind * next && count > depth.size() / share)
+        frame.notes.push_back(
+            file.string() + ": " + percentOf(count, depth.size()) +
+            " of the pixels hold the largest depth, " + std::to_string(largest) +
+            " m, far behind all others, and none is 0; if they are sky, 0 was expected there");
+}
+
+// Other programs mark the sky by infinity, by a number that is too large, by the far plane, or by the largest half.
+void understandSky(Frame& frame, const fs::path& file) {
+    constexpr float farthest = 1e7f; // where Rebound's techniques end [m]
+    constexpr float largestHalf = 65504.0f;
+    constexpr float besideTheFarPlane = 1.0f - 1e-6f;
+    std::vector<float>& depth = frame.depth.data;
+    const bool hasFarPlane = frame.camera.farPlane != CameraView().farPlane; // stated, that is
+    const float end = hasFarPlane ? std::min(farthest, frame.camera.farPlane * besideTheFarPlane) : farthest;
+    const auto isSky = [&](float d) { return d >= end || d == largestHalf; };
+    size_t sky = 0;
+    for (float& d : depth)
+        if (isSky(d)) {
+            d = 0.0f;
+            ++sky;
+        }
+    if (sky > 0)
+        frame.notes.push_back(file.string() + ": " + std::to_string(sky) +
+                              (sky == 1 ? " pixel (" : " pixels (") + percentOf(sky, depth.size()) +
+                              ") with infinity, or a depth at or beyond the far plane, 1e7 m or the largest "
+                              "half, taken for no surface");
+    noteBackground(frame, file);
 }
 
 Result<Frame> readParts(const fs::path& folder, const fs::path& viewFile, const std::string& cameraName) {
     Frame frame;
-    auto camera = readCamera(folder, viewFile, cameraName);
-    if (!camera) return camera.error();
-    frame.camera = *camera;
-    if (auto read = readDepth(folder / "depth.exr", frame.depth); !read) return read.error();
-    if (auto read = readColor(folder / "normal.exr", frame.normal); !read) return read.error();
-    if (auto read = readColor(folder / "albedo.exr", frame.albedo); !read) return read.error();
-    if (auto read = readColor(folder / "direct.exr", frame.direct); !read) return read.error();
+    auto taken = readTaken(folder, viewFile, cameraName);
+    if (!taken) return taken.error();
+    frame.camera = std::move(taken->camera);
+    frame.emissionIsDirectLight = taken->emissionIsDirectLight;
+    if (auto read = readDepth(folder / "depth.exr", frame); !read) return read.error();
+    if (auto read = readThree(folder / "normal.exr", ExrContent::normal, frame, frame.normal); !read)
+        return read.error();
+    if (auto read = readThree(folder / "albedo.exr", ExrContent::color, frame, frame.albedo); !read)
+        return read.error();
+    if (auto read = readThree(folder / "direct.exr", ExrContent::color, frame, frame.direct); !read)
+        return read.error();
     std::error_code ignored;
     if (fs::exists(folder / "emission.exr", ignored))
-        if (auto read = readColor(folder / "emission.exr", frame.emission); !read) return read.error();
+        if (auto read = readThree(folder / "emission.exr", ExrContent::color, frame, frame.emission); !read)
+            return read.error();
+    understandSky(frame, folder / "depth.exr");
     if (auto valid = validate(frame); !valid)
         return Error{valid.error().code, folder.string() + ": " + valid.error().message};
     return frame;

@@ -60,6 +60,7 @@ public:
         : scene(embreeScene), options(frameOptions), rays(camera, options.extent),
           light(scene, options.lightSamples) {
         frame.camera = camera;
+        frame.emissionIsDirectLight = scene.scene().emissiveMaterialsLight;
         frame.depth = Image(options.extent, 1);
         frame.normal = Image(options.extent, 3);
         frame.albedo = Image(options.extent, 3);
@@ -83,9 +84,8 @@ public:
 
 private:
     bool anyEmission() const {
-        const Scene& source = scene.scene();
-        return source.emissiveMaterialsLight &&
-               std::any_of(source.materials.begin(), source.materials.end(),
+        const auto& materials = scene.scene().materials;
+        return std::any_of(materials.begin(), materials.end(),
                            [](const Material& material) { return material.emission != glm::vec3(0.0f); });
     }
 

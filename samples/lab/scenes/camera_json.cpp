@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scenes/camera_json.hpp"
 
+#include "lab/files/json_text.hpp"
 #include "lab/rays/camera_rays.hpp"
 
 #include <nlohmann/json.hpp>
@@ -17,10 +18,8 @@ namespace {
 using Json = nlohmann::json;
 
 Error invalid(const std::string& context, const std::string& key, const Json& value, const char* expected) {
-    constexpr size_t longestQuote = 80;
-    std::string quote = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-    if (quote.size() > longestQuote) quote = quote.substr(0, longestQuote) + "...";
-    return {ErrorCode::invalidData, context + ": \"" + key + "\" is " + quote + "; expected " + expected};
+    return {ErrorCode::invalidData,
+            context + ": \"" + key + "\" is " + shown(value) + "; expected " + expected};
 }
 
 // Each reader leaves its output alone where the key is absent, and says whether that is an error.

@@ -69,7 +69,7 @@ bool isLit(const Scene& scene) {
     return isBright(scene.environment) ||
            std::any_of(scene.lights.begin(), scene.lights.end(),
                        [&](const Light& light) { return isBright(light.intensity); }) ||
-           (scene.emissiveMaterialsLight && std::any_of(scene.meshes.begin(), scene.meshes.end(), emits));
+           std::any_of(scene.meshes.begin(), scene.meshes.end(), emits);
 }
 
 // A view file's moment, changed as asked.
@@ -152,10 +152,11 @@ Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem:
     if (const Result<> valid = validate(scene); !valid)
         return Error{valid.error().code, subject + valid.error().message};
     if (!isLit(scene))
-        return Error{
-            ErrorCode::invalidData,
-            subject +
-                "no light: the scene has neither lights nor an environment nor emissive surfaces that light"};
+        return Error{ErrorCode::invalidData, subject + "no light: the scene has neither lights nor an "
+                                                       "environment nor emissive surfaces; a view file "
+                                                       "gives it some, such as {\"environment\": {\"type\": "
+                                                       "\"constant\", \"radiance\": [1, 1, 1]}}, "
+                                                       "as view.json beside the scene or by --view FILE"};
     return scene;
 }
 

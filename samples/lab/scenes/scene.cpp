@@ -76,10 +76,15 @@ void checkMesh(const Mesh& mesh, const Scene& scene, const std::string& subject)
     require(mesh.normals.size() == vertexCount, subject, "does not have one normal for each vertex");
     require(mesh.textureCoordinates.empty() || mesh.textureCoordinates.size() == vertexCount, subject,
             "does not have one texture coordinate for each vertex");
+    require(mesh.emissionCoordinates.empty() || mesh.emissionCoordinates.size() == vertexCount, subject,
+            "does not have one texture coordinate of its emission for each vertex");
+    require(mesh.colors.empty() || mesh.colors.size() == vertexCount, subject,
+            "does not have one colour for each vertex");
     require(mesh.indices.size() % 3 == 0, subject, "has a number of indices that is not a multiple of 3");
     const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-    require(!mesh.textureCoordinates.empty() || vertexCount == 0 ||
-                (material.baseColorTexture == none && material.emissionTexture == none),
+    const bool placesEmission = !mesh.textureCoordinates.empty() || !mesh.emissionCoordinates.empty();
+    require(vertexCount == 0 || ((material.baseColorTexture == none || !mesh.textureCoordinates.empty()) &&
+                                 (material.emissionTexture == none || placesEmission)),
             subject, "has a textured material, but no texture coordinates");
     require(std::all_of(mesh.positions.begin(), mesh.positions.end(), isPlace), subject,
             "has a position that is not finite or farther than 1e15 m from the origin");
@@ -88,6 +93,14 @@ void checkMesh(const Mesh& mesh, const Scene& scene, const std::string& subject)
     require(std::all_of(mesh.textureCoordinates.begin(), mesh.textureCoordinates.end(),
                         [](const glm::vec2& v) { return isFinite(v); }),
             subject, "has a texture coordinate that is not finite");
+    require(std::all_of(mesh.emissionCoordinates.begin(), mesh.emissionCoordinates.end(),
+                        [](const glm::vec2& v) { return isFinite(v); }),
+            subject, "has a texture coordinate of its emission that is not finite");
+    require(std::all_of(mesh.colors.begin(), mesh.colors.end(),
+                        [](const glm::vec4& c) {
+                            return isShare(c.r) && isShare(c.g) && isShare(c.b) && isShare(c.a);
+                        }),
+            subject, "has a colour outside 0 to 1");
     require(
         std::all_of(mesh.indices.begin(), mesh.indices.end(), [&](uint32_t i) { return i < vertexCount; }),
         subject, "has an index beyond its vertices");

@@ -43,11 +43,13 @@ struct Material {
 // Indexed triangles of one material, transformed to world space.
 struct Mesh {
     std::string name;
-    int material = 0;                          // index into Scene::materials
-    std::vector<glm::vec3> positions;          // [m]
-    std::vector<glm::vec3> normals;            // unit; generated where a file has none
-    std::vector<glm::vec2> textureCoordinates; // empty, or one a vertex
-    std::vector<uint32_t> indices;             // three a triangle
+    int material = 0;                           // index into Scene::materials
+    std::vector<glm::vec3> positions;           // [m]
+    std::vector<glm::vec3> normals;             // unit; generated where a file has none
+    std::vector<glm::vec4> colors;              // factors of the base colour, 0 to 1; empty, or one a vertex
+    std::vector<glm::vec2> textureCoordinates;  // of the base colour; empty, or one a vertex
+    std::vector<glm::vec2> emissionCoordinates; // of the emission; empty: those of the base colour
+    std::vector<uint32_t> indices;              // three a triangle
 };
 
 enum class LightType { directional, point, spot, area };
@@ -87,8 +89,12 @@ struct Scene {
     std::vector<Light> lights; // never seen by a camera
     std::vector<CameraView> cameras;
     glm::vec3 environment{0.0f}; // constant radiance from everywhere outside [W m^-2 sr^-1]
-    bool emissiveMaterialsLight =
-        true; // whether emissive surfaces light the scene; false: emission is ignored
+    // Whether light straight from emissive surfaces is direct light. False: they are seen to glow, and what they send is
+    // light of a surface like any other's, which is indirect light for whoever receives it.
+    bool emissiveMaterialsLight = true;
+
+    std::vector<std::string>
+        notes; // what its file holds that the lab leaves out or takes for something else: sentences
 
     size_t triangleCount() const;
 };

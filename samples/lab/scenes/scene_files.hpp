@@ -26,8 +26,9 @@ struct GltfOptions {
 // Photometric units of KHR_lights_punctual (lux, candela) are taken as radiometric ones.
 Result<Scene> loadGltf(const std::filesystem::path&, const GltfOptions& = {});
 
-// Applies a view file (cameras, lights, environment; a JSON object whose key "units" says the units) to a scene that
-// it describes: its cameras replace the scene's, and its lights too.
+// Applies a view file (cameras, lights, environment, emissive_materials; a JSON object whose key "units" says the units)
+// to a scene that it describes: what it holds replaces the scene's, what it does not hold stays. Keys that it does not
+// know are noted.
 Result<> applyViewFile(const std::filesystem::path&, Scene&);
 
 // What a view file says about the moment to load; read before the scene it belongs to.

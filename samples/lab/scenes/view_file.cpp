@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 namespace rebound::lab {
 namespace {
@@ -31,9 +33,7 @@ const Json& member(const Json& object, const char* key, const std::string& subje
 
 [[noreturn]] void refuseValue(const std::string& subject, const char* key, const Json& value,
                               const std::string& expected) {
-    // Invalid text cannot occur, as the parser refuses it.
-    refuse(subject + " has the key '" + key + "' as " + value.dump().substr(0, 80) + "; expected " +
-           expected);
+    refuse(subject + " has the key '" + key + "' as " + shown(value) + "; expected " + expected);
 }
 
 std::string text(const Json& object, const char* key, const std::string& subject) {
@@ -128,18 +128,22 @@ CameraView readCamera(const Json& object, const std::string& subject) {
     return std::move(*camera);
 }
 
+// Nothing where the key is absent.
 template <class Read>
 auto readList(const Json& root, const char* key, Read read) {
-    const Json& list = member(root, key, "the file");
-    if (!list.is_array()) refuseValue("the file", key, list, "a list");
-    std::vector<decltype(read(list, std::string()))> items;
-    for (const Json& item : list)
-        items.push_back(read(item, std::string(key) + "[" + std::to_string(items.size()) + "]"));
+    std::optional<std::vector<decltype(read(root, std::string()))>> items;
+    const auto list = root.find(key);
+    if (list == root.end()) return items;
+    if (!list->is_array()) refuseValue("the file", key, *list, "a list");
+    items.emplace();
+    for (const Json& item : *list)
+        items->push_back(read(item, std::string(key) + "[" + std::to_string(items->size()) + "]"));
     return items;
 }
 
-glm::vec3 readEnvironment(const Json& root) {
-    const Json& environment = member(root, "environment", "the file");
+std::optional<glm::vec3> readEnvironment(const Json& root) {
+    if (!root.contains("environment")) return std::nullopt;
+    const Json& environment = root["environment"];
     if (!environment.is_object()) refuseValue("the file", "environment", environment, "an object");
     if (text(environment, "type", "environment") != "constant")
         refuseValue("environment", "type", environment["type"], "constant");
@@ -149,10 +153,24 @@ glm::vec3 readEnvironment(const Json& root) {
     return radiance;
 }
 
-bool readEmissiveFlag(const Json& root) {
-    const Json& flag = member(root, "emissive_materials", "the file");
-    if (!flag.is_boolean()) refuseValue("the file", "emissive_materials", flag, "true or false");
-    return flag.get<bool>();
+std::optional<bool> readEmissiveFlag(const Json& root) {
+    const auto flag = root.find("emissive_materials");
+    if (flag == root.end()) return std::nullopt;
+    if (!flag->is_boolean()) refuseValue("the file", "emissive_materials", *flag, "true or false");
+    return flag->get<bool>();
+}
+
+// A misspelt key would leave the scene as it is without a word.
+void noteUnknownKeys(const Json& root, const std::filesystem::path& file, std::vector<std::string>& notes) {
+    constexpr const char* known[] = {"cameras",   "lights", "environment", "emissive_materials",
+                                     "animation", "units"};
+    std::string unknown;
+    for (const auto& [key, value] : root.items())
+        if (std::find(std::begin(known), std::end(known), key) == std::end(known))
+            unknown += (unknown.empty() ? "" : ", ") + shown(key);
+    if (!unknown.empty())
+        notes.push_back(std::string("'").append(file.string()) + "': a view file has no key " + unknown +
+                        ", which is left out");
 }
 
 GltfOptions readAnimation(const Json& root) {
@@ -171,15 +189,16 @@ GltfOptions readAnimation(const Json& root) {
 Result<> applyViewFile(const std::filesystem::path& file, Scene& scene) {
     const auto read = [&] {
         const Json root = readJson(file);
-        std::vector<CameraView> cameras = readList(root, "cameras", readCamera);
-        std::vector<Light> lights = readList(root, "lights", readLight);
-        const glm::vec3 environment = readEnvironment(root);
-        const bool emissive = readEmissiveFlag(root);
+        std::optional<std::vector<CameraView>> cameras = readList(root, "cameras", readCamera);
+        std::optional<std::vector<Light>> lights = readList(root, "lights", readLight);
+        const std::optional<glm::vec3> environment = readEnvironment(root);
+        const std::optional<bool> emissive = readEmissiveFlag(root);
         // Only now, so that a failure leaves the scene as it was.
-        scene.cameras = std::move(cameras);
-        scene.lights = std::move(lights);
-        scene.environment = environment;
-        scene.emissiveMaterialsLight = emissive;
+        if (cameras) scene.cameras = *std::move(cameras);
+        if (lights) scene.lights = *std::move(lights);
+        scene.environment = environment.value_or(scene.environment);
+        scene.emissiveMaterialsLight = emissive.value_or(scene.emissiveMaterialsLight);
+        noteUnknownKeys(root, file, scene.notes);
         return std::monostate{};
     };
     return guardInput(file, read);

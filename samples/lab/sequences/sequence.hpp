@@ -30,6 +30,9 @@ public:
     // The next frame, number 0 first: at number / framesPerSecond seconds. All but the first have motion.
     Result<Frame> next(const FrameOptions&);
 
+    // What the scene's file holds that the lab leaves out or takes for something else: sentences.
+    const std::vector<std::string>& notes() const { return scene.notes; }
+
 private:
     Result<> moveTo(double time);
     SceneMoment momentAt(double time) const;

@@ -148,14 +148,14 @@ Result<Configured> configured(const ScreenIndirectSettings& settings, const std:
     if (!plan) return plan.error();
     Configured result{
         toJson(settings, preset), nameOf(settings), describe(settings, preset), *std::move(plan), {}};
-    result.inputs = [settings](const lab::Frame& frame, const lab::Image& radiance) {
+    result.inputs = [settings](const lab::Frame& frame, const lab::Image& sent, const lab::Image& lit) {
         return screenIndirectInputs(
             settings, ScreenIndirectFrame<lab::Image>{lab::cameraMatrices(frame.camera, settings.resolution),
                                                       frame.depth,
                                                       frame.normal,
-                                                      radiance,
+                                                      sent,
                                                       frame.albedo,
-                                                      radiance,
+                                                      lit,
                                                       {},
                                                       {}});
     };

@@ -48,9 +48,11 @@ struct Configured {
     // Its output "indirect" is E / pi of indirect light, albedo not in it [W m^-2 sr^-1]; "composed", where it has that,
     // is outgoing radiance + albedo * indirect.
     Plan plan;
-    // A frame as the plan takes it; radiance: its outgoing radiance, up to what half precision holds. Where the frame
-    // goes on from another, its motion says how.
-    std::function<Result<runner::PlanInputs>(const lab::Frame&, const lab::Image& radiance)> inputs;
+    // A frame as the plan takes it; sent: radiance that lights other surfaces, lit: the picture that indirect light is
+    // added to, both up to what half precision holds. Where the frame goes on from another, its motion says how.
+    std::function<Result<runner::PlanInputs>(const lab::Frame&, const lab::Image& sent,
+                                             const lab::Image& lit)>
+        inputs;
 };
 
 // One of a technique's own approximations, switched to truth on top of those before it.

@@ -5,6 +5,7 @@ layout(binding = 0, std140) uniform Frame {
     mat4 inverseViewProjection;
     mat4 shadowMatrix;           // world to the shadow map's clip space
     vec4 eye;                    // .xyz the camera's position, .w 1; orthographic: the direction towards the camera, .w 0
-    vec4 shadow;                 // .x a texel's side: at unit distance [1] if .y is 1, anywhere [m] if .y is 0
+    vec4 shadow;                 // .x a texel's side: at unit distance [1] if .y is 1, anywhere [m] if .y is 0;
+                                 // .z 1: emissive surfaces are among the lights
     ivec4 counts;                // .x lights, .y of them shadowed, .zw the picture's size [pixels]
 } frame;

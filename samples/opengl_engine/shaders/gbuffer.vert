@@ -4,14 +4,17 @@
 
 layout(location = 0) in vec3 position; // world space [m]
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec2 textureCoordinate;
+layout(location = 2) in vec4 textureCoordinates; // .xy of the base colour, .zw of the emission
+layout(location = 3) in vec4 vertexColor;
 out vec3 worldPosition;
 out vec3 worldNormal;
-out vec2 coordinate;
+out vec4 coordinates;
+out vec4 color;
 
 void main() {
     worldPosition = position;
     worldNormal = normal;
-    coordinate = textureCoordinate;
+    coordinates = textureCoordinates;
+    color = vertexColor;
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

@@ -5,8 +5,8 @@ layout(binding = 1) uniform sampler2D emissionTexture;
 layout(location = 0) uniform vec4 baseColor;
 layout(location = 1) uniform vec4 emission; // .rgb radiance [W m^-2 sr^-1], .a opacity below which there is a hole
 
-vec4 baseColorAt(vec2 coordinate) {
-    vec4 color = baseColor * texture(baseColorTexture, coordinate);
+vec4 baseColorAt(vec2 coordinate, vec4 vertexColor) {
+    vec4 color = vertexColor * baseColor * texture(baseColorTexture, coordinate);
     if (color.a < emission.a) discard;
     return color;
 }

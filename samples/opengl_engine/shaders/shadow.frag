@@ -3,7 +3,8 @@
 #include "material.glsl"
 
 in vec2 coordinate;
+in vec4 color;
 
 void main() {
-    baseColorAt(coordinate); // discards where there is a hole
+    baseColorAt(coordinate, color); // discards where there is a hole
 }

@@ -5,17 +5,20 @@
 
 layout(location = 0) in vec3 position; // world space [m]
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec2 textureCoordinate;
+layout(location = 2) in vec4 textureCoordinates; // .xy of the base colour, .zw of the emission
+layout(location = 3) in vec4 vertexColor;
 layout(location = 0) out vec3 worldPosition;
 layout(location = 1) out vec3 worldNormal;
-layout(location = 2) out vec2 coordinate;
-layout(location = 3) out vec4 clip;
-layout(location = 4) out vec4 previousClip;
+layout(location = 2) out vec4 coordinates;
+layout(location = 3) out vec4 color;
+layout(location = 4) out vec4 clip;
+layout(location = 5) out vec4 previousClip;
 
 void main() {
     worldPosition = position;
     worldNormal = normal;
-    coordinate = textureCoordinate;
+    coordinates = textureCoordinates;
+    color = vertexColor;
     clip = frame.viewProjection * vec4(position, 1.0);
     previousClip = frame.previousViewProjection * vec4(position, 1.0);
     gl_Position = clip;

@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
-// Direct light: albedo * E / pi + emission. A light that casts no shadow here shines through walls.
+// Direct light: albedo * E / pi + emission; and of it what surfaces send to others: without the emission where emissive
+// surfaces are lights, as it would arrive twice. A light that casts no shadow here shines through walls.
 #include "frame.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -14,6 +15,7 @@ layout(set = 1, binding = 2) uniform sampler2D albedoImage;
 layout(set = 1, binding = 3) uniform sampler2D emissionImage;
 layout(set = 1, binding = 4) uniform sampler2D shadowMap;
 layout(set = 1, binding = 5, rgba16f) writeonly uniform image2D litImage;
+layout(set = 1, binding = 7, rgba16f) writeonly uniform image2D radianceImage;
 layout(set = 1, binding = 6, std430) readonly buffer Lights { Light lights[]; };
 
 float storedDepth(float deviceDepth) { return deviceDepth; } // 0 to 1
@@ -24,7 +26,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, frame.counts.zw))) return;
     float depth = texelFetch(depthImage, pixel, 0).r;
-    vec3 lit = vec3(0.0);
+    vec3 reflected = vec3(0.0), emitted = vec3(0.0);
     if (depth > 0.0) { // reversed: 0 is the far plane
         vec2 screen = (vec2(pixel) + 0.5) / vec2(frame.counts.zw) * 2.0 - 1.0;
         vec4 world = frame.inverseViewProjection * vec4(screen, depth, 1.0);
@@ -32,7 +34,10 @@ void main() {
         for (int i = 0; i < frame.counts.y; ++i) sum += irradiance(lights[i], position, normal);
         if (sum != vec3(0.0)) sum *= visibility(position, normal);
         for (int i = frame.counts.y; i < frame.counts.x; ++i) sum += irradiance(lights[i], position, normal);
-        lit = texelFetch(albedoImage, pixel, 0).rgb * sum / 3.14159265 + texelFetch(emissionImage, pixel, 0).rgb;
+        reflected = texelFetch(albedoImage, pixel, 0).rgb * sum / 3.14159265;
+        emitted = texelFetch(emissionImage, pixel, 0).rgb;
     }
-    imageStore(litImage, pixel, vec4(min(lit, vec3(65504.0)), 1.0));
+    vec3 sent = reflected + emitted * (1.0 - frame.shadow.z);
+    imageStore(litImage, pixel, vec4(min(reflected + emitted, vec3(65504.0)), 1.0));
+    imageStore(radianceImage, pixel, vec4(min(sent, vec3(65504.0)), 1.0));
 }

@@ -7,8 +7,8 @@ layout(push_constant) uniform Material {
     vec4 emission; // .rgb radiance [W m^-2 sr^-1], .a opacity below which there is a hole
 } material;
 
-vec4 baseColorAt(vec2 coordinate) {
-    vec4 color = material.baseColor * texture(baseColorTexture, coordinate);
+vec4 baseColorAt(vec2 coordinate, vec4 vertexColor) {
+    vec4 color = vertexColor * material.baseColor * texture(baseColorTexture, coordinate);
     if (color.a < material.emission.a) discard;
     return color;
 }

@@ -4,7 +4,8 @@
 #include "material.glsl"
 
 layout(location = 0) in vec2 coordinate;
+layout(location = 1) in vec4 color;
 
 void main() {
-    baseColorAt(coordinate); // discards where there is a hole
+    baseColorAt(coordinate, color); // discards where there is a hole
 }

@@ -12,7 +12,7 @@
 struct Pictures {
     float* depth;    // along the viewing axis, in metres; 0: nothing there
     float* normal;   // world space
-    float* radiance; // diffuse: albedo * E / pi + emission
+    float* radiance; // diffuse: albedo * E / pi, and emission that E does not hold
     float* albedo;
     float* lit;      // the picture so far
     float* composed; // lit + albedo * indirect

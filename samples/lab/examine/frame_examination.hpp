@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The SDK's input check (docs/input_check.md) on a frame of the lab.
+#pragma once
+
+#include "lab/rays/frame.hpp"
+#include "rebound/techniques/input_check.hpp"
+
+#include <vector>
+
+namespace rebound::examine {
+
+// What does not fit together in a frame, as a technique would get it; nothing where all is well. Runs on the CPU;
+// threads: 0: one a core. Fails where the frame is not complete, or memory runs out.
+Result<std::vector<InputFinding>> examineFrame(const lab::Frame&, int threads);
+
+} // namespace rebound::examine
