@@ -26,8 +26,9 @@ AlignedMemory AlignedMemory::allocate(size_t size) {
 
 ImageLayout layoutOf(const Resource& r) {
     ImageLayout layout;
-    layout.rowStride = (r.extent.width + rowPadding + rowAlignment - 1) / rowAlignment * rowAlignment;
-    layout.channelStride = layout.rowStride * r.extent.height + 2 * planeMargin;
+    const ptrdiff_t padded = r.extent.width + rowPadding + rowAlignment - 1;
+    layout.rowStride = padded / rowAlignment * rowAlignment;
+    layout.channelStride = layout.rowStride * r.extent.height + ptrdiff_t(2) * planeMargin;
     layout.size = size_t(layout.channelStride) * size_t(r.channels) * sizeof(float);
     return layout;
 }

@@ -82,7 +82,7 @@ private:
     const InputStatistics& statistics;
     std::vector<InputFinding> findings;
 
-    const float* row(StatisticRow r) const { return statistics.data() + 16 * int(r); }
+    const float* row(StatisticRow r) const { return statistics.data() + size_t(16) * size_t(r); }
     double at(StatisticRow r, int i) const { return double(row(r)[i]); }
     double value(int i) const { return at(StatisticRow::values, i); }
     double pixels() const { return value(ValueStatistic::pixels); }

@@ -234,7 +234,7 @@ inline std::vector<GeometryReading> geometryReadings(const InputCheckSettings& s
     const GBufferConventions& c = s.conventions;
     std::vector<GeometryReading> readings;
     const auto rowOf = [&](int depth) {
-        return GeometryRow{statistics.data() + 16 * (int(StatisticRow::geometry0) + depth)};
+        return GeometryRow{statistics.data() + size_t(16) * size_t(int(StatisticRow::geometry0) + depth)};
     };
     double most = 0.0;
     for (int depth = 0; depth < depthReadingCount; ++depth) most = std::max(most, rowOf(depth).surfaces());

@@ -171,7 +171,7 @@ std::vector<NamedCase> hardCases() {
 }
 
 std::vector<NamedCase> sceneCases(const techniques::Technique& technique) {
-    constexpr Extent2D extent{320, 180};
+    static constexpr Extent2D extent{320, 180};
     std::vector<NamedCase> cases;
     for (const std::string scene : {"builtin:atrium", "builtin:cornell"})
         for (const techniques::Draft& draft : technique.examples)
