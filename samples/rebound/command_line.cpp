@@ -70,7 +70,8 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
         ->option_text("R")
         ->group(techniqueGroup);
     app.add_option("--samples", o.samples,
-                   "samples a pixel and level, 4 to 256; all: every texel of every ring")
+                   "samples a texel of level 0, 4 to 256, on each coarser level half as many\nagain; all: "
+                   "every texel of every ring")
         ->option_text("N")
         ->group(techniqueGroup);
     app.add_option("--reduce", o.reduction,
@@ -92,7 +93,9 @@ void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
            "the outermost ring reaches the screen's corners, or ends at its radius: on or off\n(presets: on)")
         ->option_text("SWITCH")
         ->group(techniqueGroup);
-    app.add_option("--smooth", o.smooth, "a 3x3 filter at the start resolution: on or off (presets: on)")
+    app.add_option(
+           "--smooth", o.smooth,
+           "four sample patterns a level and a 5x5 mean over them, or one pattern:\non or off (presets: on)")
         ->option_text("SWITCH")
         ->group(techniqueGroup);
     app.add_option("--only-level", o.onlyLevel,
