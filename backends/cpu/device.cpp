@@ -62,6 +62,7 @@ Binding bindingOf(const Resource& r, std::byte* transient, std::byte* buffer) {
     b.height = r.extent.height;
     b.channels = r.channels;
     if (r.kind == ResourceKind::transient) {
+        b.holdsHalves = r.format == Format::rgba16f;
         const ImageLayout layout = layoutOf(r);
         b.data = reinterpret_cast<float*>(transient) + planeMargin;
         b.pixelStride = sizeof(float);

@@ -51,6 +51,16 @@ Result<> checkImage(const Resource& r, const Image& image) {
     return {};
 }
 
+// What passes write is no other image of the frame.
+Result<> checkAlone(const Plan& plan, size_t output, const Images& images) {
+    for (size_t i = 0; i < images.size(); ++i)
+        if (i != output && images[i] && images[i]->view == images[output]->view)
+            return invalidArgument("inputs.images: " + plan.resources[output].name + " and " +
+                                   plan.resources[i].name +
+                                   " have one view; an output of its own was expected");
+    return {};
+}
+
 void writeHostImages(const State& s, int frame, const Images& images) {
     size_t count = 0;
     for (const CompiledPass& pass : s.passes) count += pass.external.size();
@@ -144,6 +154,9 @@ Result<> Program::record(VkCommandBuffer commands, int frame, const FrameInputs<
     for (size_t i = 0; i < s.plan.resources.size(); ++i)
         if (const Image* image = resolved->images[i])
             if (auto valid = checkImage(s.plan.resources[i], *image); !valid) return valid;
+    for (size_t i = 0; i < s.plan.resources.size(); ++i)
+        if (s.plan.resources[i].kind == ResourceKind::output)
+            if (auto alone = checkAlone(s.plan, i, resolved->images); !alone) return alone;
 
     writeHostImages(s, frame, resolved->images);
     writeConstants(s, frame, resolved->constants);

@@ -42,6 +42,11 @@ inline Result<> checkBinding(const Plan& plan, const Pass& pass, const PassBindi
     if (binding.access == Access::write && r.extent != pass.grid)
         return invalidArgument("plan.passes: " + pass.label + " writes " + r.name +
                                ", whose size is not that of the pass's grid");
+    const bool isCovered = r.extent.width >= pass.grid.width && r.extent.height >= pass.grid.height;
+    if ((info.grids >> binding.slot & 1) != 0 && !isCovered)
+        return invalidArgument("plan.passes: " + pass.label + " binds " + r.name + ", which is " +
+                               toText(r.extent) + ", to " + slot +
+                               ", which reads it at every pixel of a grid of " + toText(pass.grid));
     if (r.size < atLeast)
         return invalidArgument("plan.passes: " + pass.label + " binds " + r.name + ", which has " +
                                std::to_string(r.size) + " bytes, to " + slot + ", which takes " +

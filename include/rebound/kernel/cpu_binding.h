@@ -18,6 +18,7 @@ inline constexpr int rowAlignment = 16; // of the distance between rows [floats]
 struct Binding {
     BindingKind kind = BindingKind::none;
     bool isHalf = false;       // input, output: half floats instead of floats
+    bool holdsHalves = false;  // of the device's own: floats that stand for halves, and end where those do
     int width = 0, height = 0; // [texels]
     int channels = 0;
     void* data = nullptr;        // texel 0, 0 of channel 0; a buffer's or a constant block's first byte

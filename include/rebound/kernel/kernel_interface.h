@@ -19,6 +19,7 @@ struct KernelInfo {
     BindingKind kinds[slotCount];       // what the kernel declares in each slot
     int featureCounts[featureCapacity]; // number of values of each feature; 1: no such feature
     size_t sizes[slotCount]; // of what a slot of constants or of a buffer holds at least; 0: unknown [bytes]
+    uint16_t grids = 0;      // a bit a slot: its texture has a texel at every pixel of the grid; 0: unknown
 };
 
 } // namespace rebound

@@ -20,6 +20,12 @@ constexpr size_t sizeOf() {
     else return 0;
 }
 
+template <int slot, class Kernel = ThisKernel<0, 0, 0, 0>>
+constexpr uint16_t gridBitOf() {
+    if constexpr (requires { Kernel::fillsGrid(Slot<slot>{}); }) return uint16_t(1u << slot);
+    else return 0;
+}
+
 template <class Kernel, int slot>
 void bindSlot(Kernel& kernel, const Binding* slots) {
     if constexpr (requires { kernel.bind(Slot<slot>{}, slots[slot]); })
@@ -64,6 +70,7 @@ template <int... slot>
 constexpr KernelInfo makeKernelInfo(std::integer_sequence<int, slot...>) {
     return {{bindingKindOf<slot>()...},
             {featureCountOf<0>(), featureCountOf<1>(), featureCountOf<2>(), featureCountOf<3>()},
-            {sizeOf<slot>()...}};
+            {sizeOf<slot>()...},
+            uint16_t((0 | ... | gridBitOf<slot>()))};
 }
 static constexpr KernelInfo kernelInfo = makeKernelInfo(std::make_integer_sequence<int, slotCount>{});

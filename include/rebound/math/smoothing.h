@@ -13,7 +13,7 @@ RB_FUNCTION Vec3 smoothedGather(RB_TEXTURE_ARGUMENT surfaces, RB_TEXTURE_ARGUMEN
     Vec3 n = receiver.normal;
     Real own = dot(n, viewPosition(ray, receiver.z, projection));
     Real inverseWidth = inverseTexelWidth(camera, receiver.z, scale, projection);
-    Vec4 center = fetch(gathered, pixel);
+    Vec4 center = fetchOffset(gathered, pixel, ivec2(0));
     Vec3 sum = Vec3(center.x, center.y, center.z);
     Real total = Real(1.0f);
     for (int i = 0; i < 25; ++i) {

@@ -2,7 +2,9 @@
 // What backends are held against each other with: plans and inputs, every one made anew from its name and seed.
 #pragma once
 
+#include "lab/conformance/tolerances.hpp"
 #include "lab/runner/runner.hpp"
+#include "lab/techniques/technique.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
 #include <cstdint>
@@ -16,7 +18,7 @@ struct Case {
     Plan plan;
     runner::PlanInputs inputs;
     runner::Precision precision = runner::Precision::half;
-    float largestRadiance = 0; // of the inputs, finite
+    std::vector<ImageTolerance> tolerances; // by resource of the plan
 };
 
 struct NamedCase {
@@ -24,11 +26,11 @@ struct NamedCase {
     std::function<Result<Case>()> make;
 };
 
-// Random settings, conventions and G-buffers: planes in patches, with sky between them.
+// Of screen-space indirect light: random settings, conventions and G-buffers, planes in patches with sky between them.
 std::vector<NamedCase> randomCases(int count, uint64_t seed);
-// Sizes, scales and values at the ends of what is allowed, and beyond.
+// Of screen-space indirect light: sizes, scales and values at the ends of what is allowed, and beyond.
 std::vector<NamedCase> hardCases();
-// The lab's scenes.
-std::vector<NamedCase> sceneCases();
+// The lab's scenes under the examples of a technique.
+std::vector<NamedCase> sceneCases(const techniques::Technique& = techniques::all().front());
 
 } // namespace rebound::conformance

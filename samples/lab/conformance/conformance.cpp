@@ -75,13 +75,17 @@ void comparePass(const NamedCase& named, const Case& c, const std::string& conte
                  const Record& reference, const Record& value, Report& report) {
     const Pass& pass = c.plan.passes[passIndex];
     std::vector<PassImages> images;
-    for (size_t i = 0; i < reference[passIndex].size(); ++i)
-        images.push_back({&c.plan.resources[size_t(reference[passIndex][i].resource)],
+    std::vector<size_t> resources;
+    for (size_t i = 0; i < reference[passIndex].size(); ++i) {
+        resources.push_back(size_t(reference[passIndex][i].resource));
+        images.push_back({c.plan.resources[resources[i]].format, &c.tolerances[resources[i]],
                           &reference[passIndex][i].image, &value[passIndex][i].image});
-    const std::vector<Difference> differences = compare(pass.kernel, images, c.largestRadiance);
+    }
+    const std::vector<Difference> differences = compare(images);
     for (size_t i = 0; i < images.size(); ++i) {
-        Finding finding{contender,      named.name, pass.label, pass.kernel, images[i].resource->name,
-                        differences[i], {},         {}};
+        Finding finding{
+            contender,      named.name, pass.label, pass.kernel, c.plan.resources[resources[i]].name,
+            differences[i], {},         {}};
         if (!differences[i].agrees()) {
             finding.reference = *images[i].reference;
             finding.value = *images[i].value;

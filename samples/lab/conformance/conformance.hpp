@@ -33,8 +33,7 @@ struct FrameRow {
     std::string worstCase;
     size_t disagreements = 0; // above allowedFrameDifference
 };
-// Half-precision transients alone differ from the CPU's single-precision ones by 1e-3, and the few texels whose reduction
-// decides otherwise by more: measured up to 0.02 on pictures of some hundred pixels.
+// The few texels whose reduction decides otherwise: measured up to 0.02 on pictures of some hundred pixels.
 inline constexpr double allowedFrameDifference = 0.05;
 
 struct Report {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/runner/host_image.hpp"
 #include "lab/runner/inspection.hpp"
+#include "rebound/techniques/input_check.hpp"
 
 namespace rebound::runner {
 namespace {
@@ -107,6 +108,7 @@ Result<std::unique_ptr<Backend>> createCpuBackend(const BackendChoice& choice) {
     options.isa = choice.isa;
     options.threads = choice.threads;
     options.timings = true;
+    options.moreKernels = {cpu::inputCheckKernels};
     auto device = cpu::Device::create(options);
     if (!device) return device.error();
     return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*std::move(device)));

@@ -4,6 +4,7 @@
 #include "lab/host/opengl_texture.hpp"
 #include "lab/runner/inspection.hpp"
 #include "rebound/opengl/device.hpp"
+#include "rebound/techniques/input_check.hpp"
 
 namespace rebound::runner {
 namespace {
@@ -129,6 +130,7 @@ Result<std::unique_ptr<Backend>> createOpenGLBackend(const BackendChoice& choice
     opengl::DeviceOptions options;
     options.loader = OpenGLContext::functionNamed;
     options.timings = true;
+    options.moreShaders = {inputCheckShaders()};
     auto device = opengl::Device::create(options);
     if (!device) return Error{device.error().code, "OpenGL: " + device.error().message};
     return std::unique_ptr<Backend>(std::make_unique<OpenGLBackend>(*std::move(context), *std::move(device)));

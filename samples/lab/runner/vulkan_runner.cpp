@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/host/vulkan_image.hpp"
 #include "lab/runner/inspection.hpp"
+#include "rebound/techniques/input_check.hpp"
 #include "rebound/vulkan/device.hpp"
 
 #include <cstring>
@@ -230,6 +231,7 @@ Result<std::unique_ptr<Backend>> createVulkanBackend(const BackendChoice& choice
     options.device = context->device();
     options.queueFamily = context->queueFamily();
     options.timings = true;
+    options.moreShaders = {inputCheckShaders()};
     options.debugUtils = context->hasDebugUtils();
     auto device = vulkan::Device::create(options);
     if (!device) return device.error();
