@@ -6,11 +6,13 @@
 #include "rebound/math/view_position.h"
 #include "rebound/math/gbuffer.h"
 #include "rebound/math/bilateral.h"
+#include "rebound/math/smoothing.h"
 #include "rebound/math/upsample.h"
 
 // A level's own ring, and everything that coarser levels gathered.
 RB_KERNEL(Combine)
 RB_FEATURE(0, projection, 2)
+RB_FEATURE(1, smoothing, 2)
 RB_TEXTURE(0, surfaces)
 RB_TEXTURE_OF_ANY_SIZE(1, coarseSurfaces)
 RB_TEXTURE_OF_ANY_SIZE(2, coarseIndirect)
@@ -21,7 +23,11 @@ RB_TEXTURE(6, gathered)
 RB_MAIN(pixel, k.extent)
     Surface receiver = unpackSurface(fetch(surfaces, pixel));
     Vec3 light = receivedByTexel(coarseSurfaces, coarseIndirect, pixel, receiver, camera, k, projection);
-    Vec4 own = fetch(gathered, pixel);
-    light += Vec3(own.x, own.y, own.z);
+    if (smoothing == smoothed) {
+        light += smoothedGather(surfaces, gathered, pixel, receiver, camera, k.scale.x, projection);
+    } else {
+        Vec4 own = fetch(gathered, pixel);
+        light += Vec3(own.x, own.y, own.z);
+    }
     store(combined, pixel, Vec4(light.x, light.y, light.z, Real(0.0f)));
 RB_END_KERNEL

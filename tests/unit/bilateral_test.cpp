@@ -25,13 +25,13 @@ Picture filled(Extent2D extent, int channels, const float* value) {
 }
 
 // Copies every input into a texture and runs one kernel on them.
-Picture filteredBy(cpu::Isa isa, const std::string& kernel, int projection,
+Picture filteredBy(cpu::Isa isa, const std::string& kernel, const std::vector<int>& features,
                    std::vector<std::pair<int, Picture*>> textures,
                    std::vector<std::pair<int, Picture*>> inputs, int outputSlot, int cameraSlot,
                    const detail::UpsampleConstants& k, bool toHost) {
     Plan plan{"test", {}, {}};
     std::vector<std::pair<ResourceIndex, Picture*>> images;
-    Pass pass{"filter", kernel, {projection}, {}, fine};
+    Pass pass{"filter", kernel, features, {}, fine};
     for (auto [slot, picture] : textures) {
         const std::string name = "texture " + std::to_string(slot);
         const auto host = plan.add(
@@ -113,10 +113,11 @@ TEST_CASE("combining levels: equal coarse texels give their own value, whatever 
         Picture surfaces = filled(fine, 4, nearSurface), coarseSurfaces = filled(coarse, 4, background),
                 coarseLight = filled(coarse, 4, light), gathered = filled(fine, 4, none);
         const detail::UpsampleConstants k{{fine.width, fine.height, 1, 0}, {1, 2, 0, 0}};
-        checkLight(filteredBy(isa, "screen_indirect/combine", projection,
-                              {{0, &surfaces}, {1, &coarseSurfaces}, {2, &coarseLight}, {6, &gathered}}, {},
-                              3, 4, k, false));
-        checkLight(filteredBy(isa, "screen_indirect/carry", projection,
+        for (int smoothing : {0, 1})
+            checkLight(filteredBy(isa, "screen_indirect/combine", {projection, smoothing},
+                                  {{0, &surfaces}, {1, &coarseSurfaces}, {2, &coarseLight}, {6, &gathered}},
+                                  {}, 3, 4, k, false));
+        checkLight(filteredBy(isa, "screen_indirect/carry", {projection},
                               {{0, &surfaces}, {1, &coarseSurfaces}, {2, &coarseLight}}, {}, 3, 4, k, false));
     });
 }
@@ -130,12 +131,13 @@ TEST_CASE("upsampling to pixels: equal texels give their own value, whatever the
                 radiance = filled(fine, 3, one), albedo = filled(fine, 3, third), lit = filled(fine, 3, none),
                 surfaces = filled(coarse, 4, background), received = filled(coarse, 4, light);
         const detail::UpsampleConstants k{{fine.width, fine.height, 2, 0}, {1, 4, 0, 0}};
-        checkLight(filteredBy(isa, "screen_indirect/upsample", projection, {{2, &surfaces}, {3, &received}},
+        checkLight(filteredBy(isa, "screen_indirect/upsample", {projection}, {{2, &surfaces}, {3, &received}},
                               {{0, &depth}, {1, &normal}, {7, &radiance}}, 6, 4, k, true));
-        checkLight(
-            filteredBy(isa, "screen_indirect/upsample_compose", projection, {{2, &surfaces}, {3, &received}},
-                       {{0, &depth}, {1, &normal}, {6, &albedo}, {7, &lit}, {9, &radiance}}, 8, 4, k, true),
-            0.5f);
+        checkLight(filteredBy(isa, "screen_indirect/upsample_compose", {projection},
+                              {{2, &surfaces}, {3, &received}},
+                              {{0, &depth}, {1, &normal}, {6, &albedo}, {7, &lit}, {9, &radiance}}, 8, 4, k,
+                              true),
+                   0.5f);
     });
 }
 
@@ -144,8 +146,8 @@ TEST_CASE("smoothing: a thin near texel in equal light keeps it") {
         Picture surfaces = filled(fine, 4, background), received = filled(fine, 4, light);
         for (int c = 0; c < 4; ++c) surfaces.at(4, 2, c) = surfaces.at(17, 0, c) = nearSurface[c];
         const detail::UpsampleConstants k{{fine.width, fine.height, 0, 0}, {1, 1, 0, 0}};
-        checkLight(filteredBy(isa, "screen_indirect/smooth", projection, {{0, &surfaces}, {1, &received}}, {},
-                              2, 3, k, false));
+        checkLight(filteredBy(isa, "screen_indirect/smooth", {projection}, {{0, &surfaces}, {1, &received}},
+                              {}, 2, 3, k, false));
     });
 }
 

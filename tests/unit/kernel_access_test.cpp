@@ -161,4 +161,53 @@ TEST_CASE("pixelCenter: half a pixel behind the pixel's number") {
     }
 }
 
+TEST_CASE("sparse pixels: every pixel once, its lanes in columns of its parity, at all widths") {
+    for (int width : widths)
+        for (int height : {1, 3})
+            for (int mode = 0; mode < sparseModeCount; ++mode)
+                for (ivec2 o : {ivec2(0, 0), ivec2(1, 0), ivec2(-1, 1), ivec2(-37, 0), ivec2(38, -1),
+                                ivec2(200, 0), ivec2(-200, 2)}) {
+                    if (o != ivec2(0, 0) && mode != sparseOffset && mode != sparseReaches) continue;
+                    const Extent2D extent{width, height};
+                    const AccessConstants k{{width, height, 0, 0}, {o.x, o.y, 0, 0}};
+                    Plan plan{"test", {}, {}};
+                    const auto host = plan.add({"host", ResourceKind::input, {}, 4, extent, {}, 0});
+                    const auto source = plan.add({"source", ResourceKind::transient, {}, 4, extent, {}, 0});
+                    const auto result = plan.add({"result", ResourceKind::transient, {}, 4, extent, {}, 0});
+                    const auto constants = plan.add(bufferResource("constants", std::vector{k}));
+                    plan.passes.push_back({"copy",
+                                           "copy",
+                                           {},
+                                           {{0, host}, {1, source, Access::write}, {2, constants}},
+                                           extent});
+                    plan.passes.push_back({"sparse",
+                                           "sparse",
+                                           {mode},
+                                           {{0, source}, {1, result, Access::write}, {2, constants}},
+                                           extent});
+                    Picture picture = numbered(extent);
+                    for (cpu::Isa isa : cpu::availableIsas()) {
+                        auto program = deviceFor(isa).compile(plan);
+                        REQUIRE(program);
+                        REQUIRE(program->record({{{"host", picture.image()}}, {}}));
+                        const std::vector<float> texels = *program->readTransient("result");
+                        int wrong = 0;
+                        for (int y = 0; y < height; ++y)
+                            for (int x = 0; x < width; ++x)
+                                for (int c = 0; c < 4; ++c) {
+                                    const float place[] = {float(x) + 0.5f, float(y) + 0.5f, float(x & 1),
+                                                           float(y)};
+                                    const float want =
+                                        mode == sparsePlace ? place[c] : picture.reach(x + o.x, y + o.y, c);
+                                    wrong += texels[picture.index(x, y, c)] != want;
+                                }
+                        CAPTURE(std::string(cpu::name(isa)));
+                        CAPTURE(width);
+                        CAPTURE(mode);
+                        CAPTURE(o.x);
+                        CHECK(wrong == 0);
+                    }
+                }
+}
+
 } // namespace rebound::test

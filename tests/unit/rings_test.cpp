@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <set>
@@ -57,7 +58,7 @@ TEST_CASE("an open ring reaches every texel of the level") {
     CHECK(sumOfWeights(ring) == doctest::Approx(45.0 * 21.0 - finer / 4.0).epsilon(1e-5));
 }
 
-TEST_CASE("samples stand for all texels: their weights add up to them") {
+TEST_CASE("samples stand for all texels: the patterns' mean weight is theirs") {
     for (auto [radius, isDisc, isOpen] : {std::tuple{40.0f, true, false},
                                           {40.0f, false, false},
                                           {12.0f, false, true},
@@ -65,30 +66,93 @@ TEST_CASE("samples stand for all texels: their weights add up to them") {
                                           {1.0f, false, false}})
         for (Extent2D level :
              {Extent2D{320, 180}, Extent2D{15, 9}, Extent2D{1, 1}, Extent2D{1, 40}, Extent2D{2, 1}})
-            for (int samples : {4, 32, 256}) {
-                const Ring ring{radius, isDisc, isOpen};
-                const auto texels = ringTexels(ring, level), pattern = ringPattern(ring, samples, level);
-                CHECK(int(pattern.size()) <= samples);
-                CHECK(pattern.empty() == texels.empty());
-                // Sums of floats.
-                CHECK(sumOfWeights(pattern) == doctest::Approx(sumOfWeights(texels)).epsilon(1e-5));
-                std::set<std::pair<int, int>> among, offsets;
-                for (const RingTexel& t : texels) among.insert({t.offset.x, t.offset.y});
-                for (const RingTexel& t : pattern) {
-                    CHECK(t.weight > 0.0f);
-                    CHECK(among.contains({t.offset.x, t.offset.y}));
-                    CHECK(offsets.insert({t.offset.x, t.offset.y}).second);
+            for (int samples : {4, 32, 256})
+                for (int count : {1, 4}) {
+                    const Ring ring{radius, isDisc, isOpen};
+                    const auto texels = ringTexels(ring, level);
+                    const RingPatterns patterns = ringPatterns(ring, samples, count, level);
+                    const int stored = patterns.isShared ? 1 : 4;
+                    CHECK(patterns.count <= samples);
+                    CHECK((patterns.count == 0) == texels.empty());
+                    REQUIRE(int(patterns.texels.size()) == stored * patterns.count);
+                    if (count == 1) CHECK(patterns.isShared);
+                    // Sums of floats.
+                    CHECK(sumOfWeights(patterns.texels) / stored ==
+                          doctest::Approx(sumOfWeights(texels)).epsilon(1e-5));
+                    std::set<std::pair<int, int>> among;
+                    for (const RingTexel& t : texels) among.insert({t.offset.x, t.offset.y});
+                    for (const RingTexel& t : patterns.texels) {
+                        CHECK(t.weight > 0.0f);
+                        CHECK(among.contains({t.offset.x, t.offset.y}));
+                    }
+                    if (texels.size() <= size_t(samples)) CHECK(patterns.texels.size() == texels.size());
                 }
-                if (texels.size() <= size_t(samples)) CHECK(pattern.size() == texels.size());
-            }
 }
 
-TEST_CASE("a pattern is the same each time") {
-    const auto once = ringPattern({40.0f, false, false}, 64, {320, 180}),
-               again = ringPattern({40.0f, false, false}, 64, {320, 180});
-    REQUIRE(once.size() == again.size());
-    for (size_t i = 0; i < once.size(); ++i)
-        CHECK((once[i].offset == again[i].offset && once[i].weight == again[i].weight));
+TEST_CASE("the four patterns share no texel where cells are large, and each covers every direction alike") {
+    const RingPatterns patterns = ringPatterns({40.0f, false, false}, 64, 4, endless);
+    REQUIRE(patterns.count == 64);
+    std::set<std::pair<int, int>> offsets;
+    for (const RingTexel& t : patterns.texels) CHECK(offsets.insert({t.offset.x, t.offset.y}).second);
+    // A half plane holds half of the ring. Its edge cuts some ten of 64 cells, each in a place that differs by the
+    // pattern: a tenth of the weight may fall to the other side.
+    for (int pattern = 0; pattern < 4; ++pattern)
+        for (int direction = 0; direction < 16; ++direction) {
+            const double angle = direction * std::numbers::pi / 8.0;
+            double side = 0.0, all = 0.0;
+            for (int i = pattern * 64; i < pattern * 64 + 64; ++i) {
+                const RingTexel& t = patterns.texels[size_t(i)];
+                all += t.weight;
+                if (t.offset.x * std::cos(angle) + t.offset.y * std::sin(angle) > 0.0) side += t.weight;
+            }
+            CHECK(side / all == doctest::Approx(0.5).epsilon(0.2));
+        }
+}
+
+TEST_CASE("four patterns find a smooth light's sum more nearly than one") {
+    // Light of a disc far from the receiver, and bands of ten texels.
+    const auto light = [](glm::ivec2 o) {
+        const double distance = std::hypot(o.x - 9.0, o.y - 5.0);
+        return std::exp(-distance * distance / 200.0) + 0.5 + 0.5 * std::sin(0.6 * o.x + 0.3 * o.y);
+    };
+    const auto sumOf = [&](const std::vector<RingTexel>& texels) {
+        double sum = 0.0;
+        for (const RingTexel& t : texels) sum += t.weight * light(t.offset);
+        return sum;
+    };
+    double one = 0.0, four = 0.0;
+    for (float radius : {24.0f, 32.0f, 40.0f, 48.0f})
+        for (bool isDisc : {true, false}) {
+            const Ring ring{radius, isDisc, false};
+            const double whole = sumOf(ringTexels(ring, endless));
+            one += std::abs(sumOf(ringPatterns(ring, 64, 1, endless).texels) / whole - 1.0) / 8.0;
+            four += std::abs(sumOf(ringPatterns(ring, 64, 4, endless).texels) / 4.0 / whole - 1.0) / 8.0;
+        }
+    CHECK(one < 0.1);
+    CHECK(four < 0.5 * one);
+}
+
+TEST_CASE("patterns are the same each time") {
+    const auto once = ringPatterns({40.0f, false, false}, 64, 4, {320, 180}),
+               again = ringPatterns({40.0f, false, false}, 64, 4, {320, 180});
+    REQUIRE(once.texels.size() == again.texels.size());
+    for (size_t i = 0; i < once.texels.size(); ++i)
+        CHECK((once.texels[i].offset == again.texels[i].offset &&
+               once.texels[i].weight == again.texels[i].weight));
+}
+
+TEST_CASE("wide rings are cut in blocks: a thousand texels wide, they cost little more than narrow ones") {
+    const Ring wide{1024.0f, false, true};
+    const RingPatterns patterns = ringPatterns(wide, 256, 4, {2048, 2048});
+    CHECK(patterns.count == 256);
+    double sum = 0.0;
+    for (const RingTexel& t : patterns.texels) {
+        sum += t.weight / 4.0;
+        CHECK(std::hypot(double(t.offset.x), double(t.offset.y)) <= 1024.01);
+        CHECK(std::hypot(double(t.offset.x), double(t.offset.y)) >= 510.0);
+    }
+    // pi (1024^2 - 512^2) texels; sums of floats.
+    CHECK(sum == doctest::Approx(std::numbers::pi * 786432.0).epsilon(1e-3));
 }
 
 } // namespace rebound

@@ -134,8 +134,10 @@ TEST_CASE("a closed convex room of radiance 1 lights itself with more than nothi
         const Outputs out = render(f, fast());
         CHECK(mean(out.indirect) > 0.02);
         CHECK(mean(out.indirect) < 1.0);
-        // No visibility is lost in a convex room; sampling and discs may exceed the sum of 1 by some.
-        for (float v : out.indirect.values) CHECK((v >= 0.0f && v < 1.25f));
+        // No visibility is lost in a convex room; sampling and discs exceed the sum of 1 by up to 0.2 in corners. The
+        // mean over 5x5 texels adds some there: a level's light moves by two of its texels, and two levels' rings, which
+        // tile the screen for one receiver, then overlap.
+        for (float v : out.indirect.values) CHECK((v >= 0.0f && v < 1.3f));
     }
 }
 

@@ -2,19 +2,15 @@
 // Definitions of rings.hpp.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
+#include <span>
 
 namespace rebound {
 namespace detail {
-
-// A texel, or a block of texels that is small beside a sample's share.
-struct RingPoint {
-    double x, y;    // offset of its centre [texels]
-    double weight;  // texels
-    double density; // weight in Lloyd's relaxation
-};
 
 inline double outerRadius(const Ring& ring, Extent2D level) {
     if (!ring.isOpen) return ring.radius;
@@ -22,210 +18,411 @@ inline double outerRadius(const Ring& ring, Extent2D level) {
                     std::max(openRingReach, double(ring.radius)));
 }
 
-// Wanted density of samples at a distance, relative.
-inline double sampleDensity(double distance, bool isDisc) {
-    return std::pow(std::max(distance, 1.0), isDisc ? -1.3 : -1.0);
-}
+// A ring's texels in one row, x >= 0: none from inner on, those with a weight of their own up to full, then whole ones
+// up to last.
+struct RingRow {
+    int inner = 0, full = 1, last = -1;
+};
 
-// Relaxation converges to a density of weight^(1/2) in the plane, so the weight is the square of what is wanted.
-inline double relaxationWeight(double x, double y, const Ring& ring, Extent2D level) {
-    const double wanted = sampleDensity(std::hypot(x, y), ring.isDisc);
-    const double onScreen =
-        (level.width - std::abs(x)) * (level.height - std::abs(y)) / (double(level.width) * level.height);
-    const double share = std::max(onScreen, 0.02);
-    return wanted * wanted * share * share;
-}
-
-// Sites in the plane, and the nearest of them to a point: a grid of buckets searched from the point outwards.
-class NearestSite {
+class RingRows {
 public:
-    explicit NearestSite(const std::vector<glm::dvec2>& siteList) : sites(siteList) {
-        low = high = sites[0];
-        for (const glm::dvec2& s : sites) low = glm::min(low, s), high = glm::max(high, s);
-        side = std::max(1, int(std::sqrt(double(sites.size()))));
-        cell = std::max({(high.x - low.x) / side, (high.y - low.y) / side, 1e-9});
-        buckets.resize(size_t(side + 1) * size_t(side + 1));
-        for (size_t i = 0; i < sites.size(); ++i)
-            bucketAt(column(sites[i].x, low.x), column(sites[i].y, low.y)).push_back(int(i));
+    RingRows(const Ring& shape, Extent2D level) : ring(shape) {
+        const double outer = outerRadius(ring, level);
+        outer2 = outer * outer + 1e-6;
+        radius2 = double(ring.radius) * ring.radius + 1e-6;
+        reachX = std::min(int(outer), level.width - 1);
+        reachY = std::min(int(outer), level.height - 1);
     }
 
-    int find(double x, double y) const {
-        const int cx = column(x, low.x), cy = column(y, low.y);
-        int best = -1;
-        double bestDistance = 1e300;
-        for (int reach = 0; reach <= side + 1; ++reach) {
-            // Buckets further out hold nothing nearer than this; a point may lie outside the grid.
-            const double nearest = (reach - 1) * cell;
-            if (best >= 0 && nearest > 0 && nearest * nearest > bestDistance) break;
-            visitSquare(cx, cy, reach, [&](int i) {
-                const double dx = sites[size_t(i)].x - x, dy = sites[size_t(i)].y - y, d = dx * dx + dy * dy;
-                if (d < bestDistance || (d == bestDistance && i < best)) bestDistance = d, best = i;
-            });
-        }
-        return best;
+    int lastRow() const { return reachY; }
+
+    RingRow row(int y) const {
+        RingRow r;
+        const double left = outer2 - double(y) * y;
+        r.last = left < 0.0 ? -1 : std::min(int(std::sqrt(left)), reachX);
+        if (ring.isDisc) return r;
+        // Of the finer level's texels -1, 0 and 1 around a texel's middle, the farthest and the nearest.
+        const double far = 2.0 * std::abs(y) + 1.0, near = std::max(2.0 * std::abs(y) - 1.0, 0.0);
+        if (far * far + 1.0 <= radius2) r.inner = int((std::sqrt(radius2 - far * far) - 1.0) / 2.0) + 1;
+        if (near * near <= radius2) r.full = int((std::sqrt(radius2 - near * near) + 1.0) / 2.0) + 1;
+        r.full = std::max({r.full, r.inner, 1});
+        return r;
+    }
+
+    // The share of a texel that the finer level leaves out.
+    double weight(int x, int y) const {
+        double share = 1.0;
+        for (int a = -1; a <= 1 && !ring.isDisc; ++a)
+            for (int b = -1; b <= 1; ++b) {
+                const double fx = 2 * x + a, fy = 2 * y + b;
+                if (fx * fx + fy * fy <= radius2) share -= (2 - std::abs(a)) * (2 - std::abs(b)) / 16.0;
+            }
+        return share;
+    }
+
+    // Calls visit(first, last, y, weight) for a row's runs of texels of one weight, without the receiver.
+    template <class Visit>
+    void visitRow(int y, const Visit& visit) const {
+        const RingRow r = row(y);
+        const auto single = [&](int x) {
+            const double share = x == 0 && y == 0 ? 0.0 : weight(x, y);
+            if (share > 0.0) visit(x, x, y, share);
+        };
+        const int partial = std::min(r.full - 1, r.last);
+        if (r.full <= r.last) visit(-r.last, -r.full, y, 1.0);
+        for (int x = -partial; x <= -r.inner; ++x) single(x);
+        for (int x = std::max(r.inner, 1); x <= partial; ++x) single(x);
+        if (r.full <= r.last) visit(r.full, r.last, y, 1.0);
+    }
+
+    template <class Visit>
+    void visitRuns(const Visit& visit) const {
+        for (int y = -reachY; y <= reachY; ++y) visitRow(y, visit);
     }
 
 private:
-    const std::vector<glm::dvec2>& sites;
-    glm::dvec2 low{0.0}, high{0.0};
-    int side = 1;
-    double cell = 1;
-    std::vector<std::vector<int>> buckets;
+    Ring ring;
+    double outer2 = 0.0, radius2 = 0.0;
+    int reachX = 0, reachY = 0;
+};
 
-    int column(double v, double origin) const { return std::clamp(int((v - origin) / cell), 0, side); }
-    std::vector<int>& bucketAt(int x, int y) { return buckets[size_t(y) * size_t(side + 1) + size_t(x)]; }
+// A texel, or a block of texels that is small beside a sample's share.
+struct RingPoint {
+    glm::ivec2 texel; // one of them
+    float x, y;       // centre [texels]
+    float weight;     // texels
+    float importance;
+    float order; // by which points are sorted
+};
 
-    template <class Visit>
-    void visitSquare(int cx, int cy, int reach, const Visit& visit) const {
-        for (int y = std::max(cy - reach, 0); y <= std::min(cy + reach, side); ++y) {
-            const bool edgeRow = y == cy - reach || y == cy + reach;
-            for (int x = cx - reach; x <= cx + reach; x += edgeRow || reach == 0 ? 1 : 2 * reach) {
-                if (x < 0 || x > side) continue;
-                for (int i : buckets[size_t(y) * size_t(side + 1) + size_t(x)]) visit(i);
+// How important a texel is, relative: light changes fastest near the receiver, and more receivers have near texels on
+// the screen.
+inline double importanceOf(double x, double y, const Ring& ring, Extent2D level) {
+    const double distance = std::max(std::sqrt(x * x + y * y), 1.0);
+    const double nearness = ring.isDisc ? distance * std::sqrt(std::sqrt(distance)) : distance;
+    const double onScreen =
+        (level.width - std::abs(x)) * (level.height - std::abs(y)) / (double(level.width) * level.height);
+    return std::max(onScreen, 0.02) / nearness;
+}
+
+// The texels as points; many texels in blocks, of which there remain a few thousand.
+class RingPoints {
+public:
+    RingPoints(const Ring& ring, Extent2D level) : rows(ring, level) {
+        int64_t texels = 0;
+        rows.visitRuns([&](int first, int last, int, double) { texels += last - first + 1; });
+        // Some ten a sample's quarter, or, where there are more samples, one.
+        constexpr int64_t manyTexels = 6000, manyBlocks = 2500;
+        if (texels > manyTexels)
+            while (texels / (int64_t(block) * block) > manyBlocks) ++block;
+        if (block == 1) {
+            points.reserve(size_t(texels));
+            rows.visitRuns([&](int first, int last, int y, double weight) {
+                for (int x = first; x <= last; ++x)
+                    points.push_back({{x, y}, float(x), float(y), float(weight), 0, 0});
+            });
+        } else {
+            gatherBlocks();
+        }
+        for (RingPoint& p : points) p.importance = float(p.weight * importanceOf(p.x, p.y, ring, level));
+    }
+
+    std::vector<RingPoint> points;
+
+private:
+    struct Block {
+        double weight = 0, x = 0, y = 0, distance2 = 1e300;
+        glm::ivec2 texel{0};
+    };
+
+    RingRows rows;
+    int block = 1;
+
+    // Columns of blocks from first to last.
+    struct Columns {
+        int first = 0, last = -1;
+    };
+
+    void gatherBlocks() {
+        std::vector<Block> partial;
+        for (int band = floorOf(-rows.lastRow()); band <= floorOf(rows.lastRow()); ++band) {
+            const int top = std::max(band * block, -rows.lastRow());
+            const int bottom = std::min(band * block + block - 1, rows.lastRow());
+            int full = 1, last = std::numeric_limits<int>::max(), reach = -1;
+            for (int y = top; y <= bottom; ++y) {
+                const RingRow r = rows.row(y);
+                full = std::max(full, r.full);
+                last = std::min(last, r.last);
+                reach = std::max(reach, r.last);
             }
+            if (bottom - top + 1 < block) last = -1;
+            const Columns right{floorOf(full + block - 1), floorOf(last + 1) - 1};
+            const Columns left{floorOf(-last + block - 1), floorOf(1 - full) - 1};
+            addWhole(left, band);
+            addWhole(right, band);
+            const int low = floorOf(-reach);
+            partial.assign(size_t(floorOf(reach) - low + 1), Block{});
+            for (int y = top; y <= bottom; ++y)
+                rows.visitRow(y, [&](int from, int to, int row, double weight) {
+                    const Columns whole = from < 0 ? left : right;
+                    const int begin = whole.first * block, end = whole.last * block + block;
+                    if (whole.first > whole.last || end <= from || begin > to) {
+                        addRun(partial, low, from, to, row, weight);
+                    } else {
+                        addRun(partial, low, from, begin - 1, row, weight);
+                        addRun(partial, low, end, to, row, weight);
+                    }
+                });
+            for (const Block& b : partial)
+                if (b.weight > 0.0)
+                    points.push_back(
+                        {b.texel, float(b.x / b.weight), float(b.y / b.weight), float(b.weight), 0, 0});
+        }
+    }
+
+    // Blocks all of whose texels count as one.
+    void addWhole(Columns columns, int band) {
+        const float middle = 0.5f * float(block - 1);
+        for (int column = columns.first; column <= columns.last; ++column) {
+            const glm::ivec2 corner(column * block, band * block);
+            // Not always the same texel of a block: samples would all lie in rows and columns of one lattice.
+            const uint32_t mixed = (uint32_t(column) * 73856093u) ^ (uint32_t(band) * 19349663u);
+            const glm::ivec2 within(int((mixed >> 8) % uint32_t(block)),
+                                    int((mixed >> 16) % uint32_t(block)));
+            points.push_back({corner + within, float(corner.x) + middle, float(corner.y) + middle,
+                              float(block * block), 0, 0});
+        }
+    }
+
+    void addRun(std::vector<Block>& to, int low, int first, int last, int y, double weight) const {
+        if (first > last) return;
+        const double dy = y - ((floorOf(y) + 0.5) * block - 0.5);
+        const int column = floorOf(first);
+        Block* b = &to[size_t(column - low)];
+        for (int start = column * block; start <= last; start += block, ++b) {
+            const int from = std::max(first, start), until = std::min(last, start + block - 1);
+            const double share = weight * (until - from + 1);
+            b->weight += share;
+            b->x += share * 0.5 * (from + until);
+            b->y += share * y;
+            const int x = std::clamp(start + block / 2, from, until);
+            const double dx = x - (start + 0.5 * block - 0.5), d = dx * dx + dy * dy;
+            if (d < b->distance2) b->distance2 = d, b->texel = {x, y};
+        }
+    }
+
+    int floorOf(int x) const { return x >= 0 ? x / block : -((block - 1 - x) / block); }
+};
+
+using PointSpan = std::span<RingPoint>;
+
+inline double importanceOf(PointSpan points) {
+    double sum = 0.0;
+    for (const RingPoint& p : points) sum += p.importance;
+    return sum;
+}
+
+// Sorts by a number of 0 or more; among equals the order remains.
+template <class Order>
+void sortPoints(PointSpan points, const Order& order) {
+    // Such a float's bits grow with it.
+    std::vector<uint64_t> keys;
+    keys.reserve(points.size());
+    for (size_t i = 0; i < points.size(); ++i) {
+        points[i].order = order(points[i]);
+        keys.push_back(uint64_t(std::bit_cast<uint32_t>(points[i].order)) << 32 | i);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<RingPoint> sorted;
+    sorted.reserve(points.size());
+    for (uint64_t key : keys) sorted.push_back(points[uint32_t(key)]);
+    std::copy(sorted.begin(), sorted.end(), points.begin());
+}
+
+inline float distance2Of(const RingPoint& p) { return p.x * p.x + p.y * p.y; }
+// Grows with the angle as it would, from 0 to 4.
+inline float turnOf(const RingPoint& p) {
+    const float along = p.x / (std::abs(p.x) + std::abs(p.y));
+    return p.y < 0.0f ? 3.0f + along : 1.0f - along;
+}
+
+// Calls visit(part, points) for parts of equal importance, in the points' order. A shift of a part's share, 0 to 1, lets
+// the first part's end be the last part's beginning; both are visited apart, as part `parts` is part 0.
+template <class Visit>
+void cut(PointSpan points, int parts, double shift, const Visit& visit) {
+    const double share = importanceOf(points) / parts;
+    double sum = shift * share;
+    size_t begin = 0;
+    int part = 0;
+    for (size_t i = 0; i <= points.size(); ++i) {
+        const int next =
+            i < points.size() ? std::min(int((sum + 0.5 * points[i].importance) / share), parts) : parts + 1;
+        if (next != part) {
+            if (i > begin) visit(part, points.subspan(begin, i - begin));
+            begin = i;
+            part = next;
+        }
+        if (i < points.size()) sum += points[i].importance;
+    }
+}
+
+// Picks each pattern's sample from a cell.
+class CellSampler {
+public:
+    CellSampler(RingPatterns& to, int patternCount) : result(to), patterns(patternCount) {}
+
+    void sample(std::vector<RingPoint>& cell) {
+        std::array<Part, 4> parts;
+        if (patterns == 1) parts[0] = partOf(cell);
+        else quarter(cell, parts);
+        int filled = 0;
+        for (const Part& p : parts) filled += p.weight > 0.0f ? 1 : 0;
+        // A cell of one to three texels has empty quarters: its texels then serve several patterns.
+        std::array<int, 4> chosen{}, uses{};
+        for (int pattern = 0; pattern < patterns; ++pattern) {
+            const int column = pattern & 1, row = pattern >> 1;
+            int part = patterns == 1 ? 0 : ((column ^ row) | (row << 1)) ^ (cells & 3);
+            while (parts[size_t(part)].weight == 0.0f) part = (part + 1) & 3;
+            chosen[size_t(pattern)] = part;
+        }
+        spread(parts, chosen);
+        for (int pattern = 0; pattern < patterns; ++pattern) ++uses[size_t(chosen[size_t(pattern)])];
+        for (int pattern = 0; pattern < patterns; ++pattern) {
+            const Part& p = parts[size_t(chosen[size_t(pattern)])];
+            perPattern[size_t(pattern)].push_back(
+                {p.texel, p.weight * float(patterns) / float(uses[size_t(chosen[size_t(pattern)])])});
+        }
+        ++cells;
+    }
+
+    void finish() {
+        result.count = cells;
+        result.isShared = patterns == 1;
+        for (int pattern = 0; pattern < patterns; ++pattern)
+            result.texels.insert(result.texels.end(), perPattern[size_t(pattern)].begin(),
+                                 perPattern[size_t(pattern)].end());
+    }
+
+private:
+    struct Part {
+        glm::ivec2 texel{0};
+        float weight = 0.0f;
+    };
+
+    RingPatterns& result;
+    int patterns = 1;
+    int cells = 0;
+    std::array<std::vector<RingTexel>, 4> perPattern;
+
+    // The texel nearest the part's centre stands for it.
+    static Part partOf(PointSpan points) {
+        double weight = 0.0, x = 0.0, y = 0.0;
+        for (const RingPoint& p : points) weight += p.weight, x += p.weight * p.x, y += p.weight * p.y;
+        Part part;
+        double nearest = 1e300;
+        for (const RingPoint& p : points) {
+            const double dx = p.x - x / weight, dy = p.y - y / weight, d = dx * dx + dy * dy;
+            if (d < nearest) nearest = d, part.texel = p.texel;
+        }
+        part.weight = float(weight);
+        return part;
+    }
+
+    static void quarter(PointSpan cell, std::array<Part, 4>& parts) {
+        sortPoints(cell, distance2Of);
+        cut(cell, 2, 0.0, [&](int radial, PointSpan half) {
+            // A cell may lie across the direction where turns begin anew: turns count from opposite it.
+            const float start = turnOf(half[0]) + 2.0f;
+            sortPoints(half, [&](const RingPoint& p) {
+                const float turn = turnOf(p) - start;
+                return turn < 0.0f ? (turn < -4.0f ? turn + 8.0f : turn + 4.0f) : turn;
+            });
+            cut(half, 2, 0.0, [&](int along, PointSpan points) {
+                parts[size_t(std::min(radial, 1) + 2 * std::min(along, 1))] = partOf(points);
+            });
+        });
+    }
+    // Lets no part go unused.
+    void spread(const std::array<Part, 4>& parts, std::array<int, 4>& chosen) const {
+        for (int part = 0; part < patterns; ++part) {
+            const auto end = chosen.begin() + patterns;
+            if (parts[size_t(part)].weight == 0.0f || std::find(chosen.begin(), end, part) != end) continue;
+            for (auto it = chosen.begin(); it != end; ++it)
+                if (std::count(chosen.begin(), end, *it) > 1) {
+                    *it = part;
+                    break;
+                }
         }
     }
 };
 
-// Sites on a golden-angle spiral whose radii follow the wanted density.
-inline std::vector<glm::dvec2> spiralSites(const Ring& ring, double outer, int count) {
-    constexpr int steps = 4000;
-    constexpr double goldenAngle = 2.39996322972865332;
-    const double inner = ring.isDisc ? 0.0 : ring.radius / 2.0;
-    std::vector<double> cumulative;
-    double sum = 0.0;
-    for (int i = 0; i < steps; ++i) {
-        const double d = inner + (outer - inner) * (i + 0.5) / steps;
-        cumulative.push_back(sum += sampleDensity(d, ring.isDisc) * d);
-    }
-    std::vector<glm::dvec2> sites;
-    for (int i = 0; i < count; ++i) {
-        const auto at = std::lower_bound(cumulative.begin(), cumulative.end(), (i + 0.5) / count * sum);
-        const double d = inner + (outer - inner) * (double(at - cumulative.begin()) + 0.5) / steps;
-        sites.push_back(d * glm::dvec2(std::cos(i * goldenAngle), std::sin(i * goldenAngle)));
-    }
-    return sites;
-}
-
-inline std::vector<int> assignToSites(const std::vector<RingPoint>& points,
-                                      const std::vector<glm::dvec2>& sites) {
-    const NearestSite nearest(sites);
-    std::vector<int> owner;
-    owner.reserve(points.size());
-    for (const RingPoint& p : points) owner.push_back(nearest.find(p.x, p.y));
-    return owner;
-}
-
-// Moves sites that own nothing to the point that is worst served, so that no sample is wasted.
-inline void reviveEmptySites(const std::vector<RingPoint>& points, std::vector<int>& owner,
-                             std::vector<glm::dvec2>& sites, bool isDisc) {
-    std::vector<int> count(sites.size(), 0);
-    for (int o : owner) ++count[size_t(o)];
-    for (size_t site = 0; site < sites.size(); ++site) {
-        if (count[site] > 0) continue;
-        double worst = -1.0;
-        size_t chosen = 0;
-        for (size_t i = 0; i < points.size(); ++i) {
-            const size_t o = size_t(owner[i]);
-            if (count[o] < 2) continue;
-            const double dx = sites[o].x - points[i].x, dy = sites[o].y - points[i].y;
-            const double badness =
-                (dx * dx + dy * dy) * sampleDensity(std::hypot(points[i].x, points[i].y), isDisc);
-            if (badness > worst) worst = badness, chosen = i;
+// Cuts a ring into cells and hands them out.
+template <class Visit>
+void cutRing(std::vector<RingPoint>& points, int cells, const Visit& visit) {
+    constexpr double goldenRatio = 0.618033988749895;
+    sortPoints(points, distance2Of);
+    size_t begin = 0;
+    double left = importanceOf(PointSpan(points));
+    for (int annulus = 0; begin < points.size() && cells > 0; ++annulus) {
+        // As wide as its cells are long.
+        const double share = left / cells, inner = std::sqrt(points[begin].order);
+        double sum = 0.0;
+        size_t end = begin;
+        while (end < points.size()) {
+            sum += points[end].importance;
+            const float order = points[end++].order;
+            if (end < points.size() && points[end].order == order) continue;
+            const double outer = std::sqrt(order), count = sum / share;
+            if (count >= 0.9 &&
+                (outer + 0.5 - std::max(inner - 0.5, 0.0)) * count >= 3.14159 * (inner + outer))
+                break;
         }
-        if (worst < 0.0) return;
-        --count[size_t(owner[chosen])];
-        owner[chosen] = int(site);
-        count[site] = 1;
-        sites[site] = {points[chosen].x, points[chosen].y};
+        int sectors = std::clamp(int(std::lround(sum / share)), 1, cells);
+        if (end == points.size()) sectors = cells;
+        if (sectors == cells) end = points.size();
+        const PointSpan all(points.data() + begin, end - begin);
+        sortPoints(all, turnOf);
+        double turned = annulus * goldenRatio;
+        turned -= std::floor(turned);
+        std::vector<std::vector<RingPoint>> cell(static_cast<size_t>(sectors));
+        cut(all, sectors, turned, [&](int sector, PointSpan part) {
+            std::vector<RingPoint>& to = cell[size_t(sector % sectors)];
+            to.insert(to.end(), part.begin(), part.end());
+        });
+        for (std::vector<RingPoint>& c : cell)
+            if (!c.empty()) visit(c);
+        cells -= sectors;
+        left -= importanceOf(all);
+        begin = end;
     }
-}
-
-// Lloyd's relaxation: every site moves to the centre of what it owns, again and again.
-inline void relaxSites(const std::vector<RingPoint>& points, std::vector<glm::dvec2>& sites, bool isDisc) {
-    constexpr int rounds = 40; // after these, sites move by hundredths of a texel
-    for (int round = 0; round < rounds; ++round) {
-        std::vector<int> owner = assignToSites(points, sites);
-        std::vector<glm::dvec3> sums(sites.size(), glm::dvec3(0.0));
-        for (size_t i = 0; i < points.size(); ++i)
-            sums[size_t(owner[i])] += points[i].density * glm::dvec3(points[i].x, points[i].y, 1.0);
-        for (size_t i = 0; i < sites.size(); ++i)
-            if (sums[i].z > 0.0) sites[i] = glm::dvec2(sums[i]) / sums[i].z;
-        reviveEmptySites(points, owner, sites, isDisc);
-    }
-}
-
-// The texels as points; many texels in blocks, of which there remain a few thousand.
-inline std::vector<RingPoint> relaxationPoints(const std::vector<RingTexel>& texels, const Ring& ring,
-                                               Extent2D level) {
-    constexpr size_t manyTexels = 8192;
-    int block = 1;
-    while (texels.size() / (size_t(block) * size_t(block)) > manyTexels) ++block;
-    std::vector<RingPoint> points;
-    glm::ivec2 low(0), high(0);
-    for (const RingTexel& t : texels) low = glm::min(low, t.offset), high = glm::max(high, t.offset);
-    const glm::ivec2 count = (high - low) / block + 1;
-    std::vector<glm::dvec3> sums(size_t(count.x) * size_t(count.y), glm::dvec3(0.0));
-    for (const RingTexel& t : texels) {
-        const glm::ivec2 b = (t.offset - low) / block;
-        sums[size_t(b.y) * size_t(count.x) + size_t(b.x)] +=
-            double(t.weight) * glm::dvec3(double(t.offset.x), double(t.offset.y), 1.0);
-    }
-    for (const glm::dvec3& s : sums)
-        if (s.z > 0.0) {
-            const double x = s.x / s.z, y = s.y / s.z;
-            points.push_back({x, y, s.z, s.z * relaxationWeight(x, y, ring, level)});
-        }
-    return points;
 }
 
 } // namespace detail
 
 inline std::vector<RingTexel> ringTexels(const Ring& ring, Extent2D level) {
-    const double outer = detail::outerRadius(ring, level);
-    const double outer2 = outer * outer + 1e-6, radius2 = double(ring.radius) * ring.radius + 1e-6;
-    const int reachX = std::min(int(outer), level.width - 1), reachY = std::min(int(outer), level.height - 1);
     std::vector<RingTexel> texels;
-    for (int y = -reachY; y <= reachY; ++y)
-        for (int x = -reachX; x <= reachX; ++x) {
-            if ((x == 0 && y == 0) || double(x) * x + double(y) * y > outer2) continue;
-            double weight = 1.0;
-            // Offsets between the four finer texels of this one and those of the receiver: -1, 0, 0, 1 along each side.
-            for (int a = -1; a <= 1 && !ring.isDisc; ++a)
-                for (int b = -1; b <= 1; ++b) {
-                    const double fx = 2 * x + a, fy = 2 * y + b;
-                    if (fx * fx + fy * fy <= radius2) weight -= (2 - std::abs(a)) * (2 - std::abs(b)) / 16.0;
-                }
-            if (weight > 0.0) texels.push_back({{x, y}, float(weight)});
-        }
+    detail::RingRows(ring, level).visitRuns([&](int first, int last, int y, double weight) {
+        for (int x = first; x <= last; ++x) texels.push_back({{x, y}, float(weight)});
+    });
     return texels;
 }
 
-inline std::vector<RingTexel> ringPattern(const Ring& ring, int samples, Extent2D level) {
-    const std::vector<RingTexel> texels = ringTexels(ring, level);
-    if (int64_t(texels.size()) <= int64_t(samples)) return texels;
-    std::vector<glm::dvec2> sites = detail::spiralSites(ring, detail::outerRadius(ring, level), samples);
-    detail::relaxSites(detail::relaxationPoints(texels, ring, level), sites, ring.isDisc);
-
-    std::vector<detail::RingPoint> points;
-    for (const RingTexel& t : texels)
-        points.push_back({double(t.offset.x), double(t.offset.y), double(t.weight), 0.0});
-    const std::vector<int> owner = detail::assignToSites(points, sites);
-    std::vector<glm::dvec3> sums(sites.size(), glm::dvec3(0.0));
-    for (size_t i = 0; i < points.size(); ++i)
-        sums[size_t(owner[i])] += points[i].weight * glm::dvec3(points[i].x, points[i].y, 1.0);
-
-    // The texel nearest the centre of what the sample owns; among equals the one that counts most.
-    std::vector<double> distance(sites.size(), 1e300);
-    std::vector<RingTexel> pattern(sites.size());
-    for (size_t i = 0; i < points.size(); ++i) {
-        const size_t o = size_t(owner[i]);
-        const double dx = sums[o].x / sums[o].z - points[i].x, dy = sums[o].y / sums[o].z - points[i].y;
-        const double d = dx * dx + dy * dy - 1e-3 * points[i].weight;
-        if (d < distance[o]) distance[o] = d, pattern[o] = {texels[i].offset, float(sums[o].z)};
+inline RingPatterns ringPatterns(const Ring& ring, int samples, int patterns, Extent2D level) {
+    RingPatterns result;
+    int64_t texels = 0;
+    detail::RingRows(ring, level).visitRuns([&](int first, int last, int, double) {
+        texels += last - first + 1;
+    });
+    if (texels <= int64_t(samples)) {
+        result.texels = ringTexels(ring, level);
+        result.count = int(result.texels.size());
+        return result;
     }
-    std::erase_if(pattern, [](const RingTexel& t) { return t.weight == 0.0f; });
-    return pattern;
+    detail::RingPoints all(ring, level);
+    detail::CellSampler sampler(result, patterns);
+    detail::cutRing(all.points, samples, [&](std::vector<detail::RingPoint>& cell) { sampler.sample(cell); });
+    sampler.finish();
+    return result;
 }
 
 } // namespace rebound

@@ -64,7 +64,6 @@ public:
         camera = plan.add({"camera", ResourceKind::frameConstants, {}, 1, {}, {}, sizeof(CameraConstants)});
         addReductions();
         addGathers();
-        if (settings.smooth) addSmooth();
         addOutputs();
         return std::move(plan);
     }
@@ -166,19 +165,26 @@ private:
                                to.extent});
     }
 
+    // A coarser level has a quarter of the texels, so more samples cost little there.
+    int samplesOf(int k) const {
+        if (settings.samplesPerLevel == wholeRings) return wholeRings;
+        return int(std::lround(settings.samplesPerLevel * std::pow(1.5, k)));
+    }
+
     ResourceIndex addGather(int k) {
         const Level& level = levels[size_t(k)];
         const std::string label = numbered("gather level ", k);
         std::vector<RingSample> samples;
         const bool open = settings.coverScreen && k == settings.levels - 1;
-        for (const RingTexel& t :
-             ringPattern({settings.ringRadius, k == 0, open}, settings.samplesPerLevel, level.extent))
-            samples.push_back({t.offset, t.weight, 0.0f});
-        const int count = int(samples.size());
+        const Ring shape{settings.ringRadius, k == 0, open};
+        const RingPatterns patterns =
+            ringPatterns(shape, samplesOf(k), settings.smooth ? 4 : 1, level.extent);
+        for (const RingTexel& t : patterns.texels) samples.push_back({t.offset, t.weight, 0.0f});
         if (samples.empty()) samples.push_back({{0, 0}, 0.0f, 0.0f});
         const ResourceIndex ring = plan.add(bufferResource(label + " ring", samples));
-        const GatherConstants constants{{level.extent.width, level.extent.height, count, 0},
-                                        {float(1 << level.shift), 0, 0, 0}};
+        const GatherConstants constants{
+            {level.extent.width, level.extent.height, patterns.count, patterns.isShared ? 0 : patterns.count},
+            {float(1 << level.shift), 0, 0, 0}};
         const ResourceIndex gathered =
             addImage(numbered("gathered ", k), ResourceKind::transient, Format::rgba16f, 3, level.extent);
         plan.passes.push_back(
@@ -201,9 +207,24 @@ private:
                 {float(1 << shift), float(1 << coarseShift), 0, 0}};
     }
 
+    void addSmooth(const Level& level) {
+        const ResourceIndex mean =
+            addImage("smoothed", ResourceKind::transient, Format::rgba16f, 3, level.extent);
+        const ResourceIndex constants =
+            addConstants("smooth", upsampleConstants(level.extent, level.shift, level.shift));
+        plan.passes.push_back(
+            {"smooth",
+             "screen_indirect/smooth",
+             {projection()},
+             {{0, level.surface}, {1, result}, {2, mean, Access::write}, {3, camera}, {4, constants}},
+             level.extent});
+        result = mean;
+    }
+
     // combined = gathered + upsampled coarser level, from the coarsest on; or just the latter where one level is shown.
     void addGathers() {
         result = addGather(coarsest());
+        if (settings.smooth) addSmooth(levels[size_t(coarsest())]);
         for (int k = coarsest() - 1; k >= 0; --k) {
             const Level& level = levels[size_t(k)];
             const Level& coarser = levels[size_t(k) + 1];
@@ -221,26 +242,13 @@ private:
                       level.extent};
             pass.bindings = {{0, level.surface},           {1, coarser.surface}, {2, result},
                              {3, combined, Access::write}, {4, camera},          {5, constants}};
-            if (gathers) pass.bindings.push_back({6, gathered});
+            if (gathers) {
+                pass.features.push_back(settings.smooth ? smoothed : unsmoothed);
+                pass.bindings.push_back({6, gathered});
+            }
             plan.passes.push_back(pass);
             result = combined;
         }
-    }
-
-    // Takes off the last of the blotches that a fixed sample pattern leaves.
-    void addSmooth() {
-        const Level& start = levels[0];
-        const ResourceIndex smoothed =
-            addImage("smoothed", ResourceKind::transient, Format::rgba16f, 3, start.extent);
-        const ResourceIndex constants =
-            addConstants("smooth", upsampleConstants(start.extent, start.shift, start.shift));
-        plan.passes.push_back(
-            {"smooth",
-             "screen_indirect/smooth",
-             {projection()},
-             {{0, start.surface}, {1, result}, {2, smoothed, Access::write}, {3, camera}, {4, constants}},
-             start.extent});
-        result = smoothed;
     }
 
     void addOutputs() {
@@ -258,22 +266,17 @@ private:
         Pass upsample{"upsample", "screen_indirect/upsample", {projection()}, {}, full};
         upsample.bindings = {{0, depth},  {1, normal}, {2, start.surface},
                              {3, result}, {4, camera}, {5, constants}};
-        if (settings.writeIndirect) {
-            upsample.bindings.insert(upsample.bindings.end(), {{6, indirect, Access::write}, {7, radiance}});
-        } else {
+        if (settings.compose) {
             upsample.label = "upsample and compose";
-            upsample.kernel = "screen_indirect/upsample_compose";
+            upsample.kernel =
+                settings.writeIndirect ? "screen_indirect/upsample_both" : "screen_indirect/upsample_compose";
             upsample.bindings.insert(upsample.bindings.end(),
                                      {{6, albedo}, {7, lit}, {8, composed, Access::write}, {9, radiance}});
+            if (settings.writeIndirect) upsample.bindings.push_back({10, indirect, Access::write});
+        } else {
+            upsample.bindings.insert(upsample.bindings.end(), {{6, indirect, Access::write}, {7, radiance}});
         }
         plan.passes.push_back(upsample);
-        if (!settings.writeIndirect || !settings.compose) return;
-        const ResourceIndex k = addConstants("compose", upsampleConstants(full, 0, 0));
-        plan.passes.push_back({"compose",
-                               "screen_indirect/compose",
-                               {},
-                               {{0, indirect}, {1, albedo}, {2, lit}, {3, composed, Access::write}, {4, k}},
-                               full});
     }
 };
 

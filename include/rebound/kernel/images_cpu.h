@@ -10,6 +10,28 @@ inline Vec2 pixelCenter(Pixel p) {
     return Vec2(toReal(laneIndex()) + (float(p.x) + 0.5f), Real(float(p.y) + 0.5f));
 }
 
+// Every other pixel of a row, so that all lanes lie in columns of one parity: x, x + 2, ...
+struct SparsePixel {
+    int x, y;
+};
+
+// Of two neighbouring vectors of lanes the first takes the even columns of both, the second the odd ones; a first vector
+// without a second takes both in turn.
+inline int sparseCount(Pixel p, int width) {
+    const bool isFirst = p.x % (2 * laneCount) == 0;
+    return isFirst && p.x + laneCount >= width ? 2 : 1;
+}
+inline SparsePixel sparsePixel(Pixel p, int turn) {
+    const int start = p.x / (2 * laneCount) * (2 * laneCount);
+    return {p.x == start ? start + turn : start + 1, p.y};
+}
+inline int columnOf(SparsePixel p) { return p.x; }
+inline int rowOf(SparsePixel p) { return p.y; }
+
+inline Vec2 pixelCenter(SparsePixel p) {
+    return Vec2(toReal(laneIndex()) * 2.0f + (float(p.x) + 0.5f), Real(float(p.y) + 0.5f));
+}
+
 // Rebound's own image: a plane a channel, zero in the padding around the rows. Absent channels repeat channel 0.
 struct TextureOfAnySize {
     float* plane[4];
@@ -72,6 +94,22 @@ inline Vec4 fetchMagnified(const TextureOfAnySize& t, Pixel p, ivec2 bias, int s
                 loadRepeated(t.plane[2] + i, phase, shift), loadRepeated(t.plane[3] + i, phase, shift));
 }
 
+// True where some lane of pixel + offset lies inside: if false, every lane's fetchOffset is zero.
+inline bool reaches(const Texture& t, SparsePixel p, ivec2 o) {
+    const int x = p.x + o.x, y = p.y + o.y;
+    return unsigned(y) < unsigned(t.height) && x > -2 * laneCount && x < t.width;
+}
+
+inline Vec4 fetchInsideSparse(const Texture& t, int x, int y) {
+    const ptrdiff_t i = t.index(x, y);
+    return Vec4(loadEveryOther(t.plane[0] + i), loadEveryOther(t.plane[1] + i),
+                loadEveryOther(t.plane[2] + i), loadEveryOther(t.plane[3] + i));
+}
+inline Vec4 fetch(const Texture& t, SparsePixel p) { return fetchInsideSparse(t, p.x, p.y); }
+inline Vec4 fetchOffset(const Texture& t, SparsePixel p, ivec2 o) {
+    return reaches(t, p, o) ? fetchInsideSparse(t, p.x + o.x, p.y + o.y) : Vec4(Real(0.0f));
+}
+
 // Any texel, lane by lane; zero outside. The slowest access on a CPU.
 inline Vec4 fetchAt(const TextureOfAnySize& t, IVec2 at) {
     alignas(64) int32_t x[laneCount], y[laneCount];
@@ -85,14 +123,29 @@ inline Vec4 fetchAt(const TextureOfAnySize& t, IVec2 at) {
     return Vec4(loadLanes(lanes[0]), loadLanes(lanes[1]), loadLanes(lanes[2]), loadLanes(lanes[3]));
 }
 
+// What an image holds of a value: a GPU's, which may be of half floats, ends where those do.
+inline Real stored(const Texture& t, Real a) { return t.holdsHalves ? withinHalves(a) : a; }
+
 // Lanes beyond the right side land in the padding; the backend clears it when the row is done.
 inline void store(const Texture& t, Pixel p, const Vec4& v) {
     const ptrdiff_t i = t.index(p.x, p.y);
-    const auto stored = [&](Real a) { return t.holdsHalves ? withinHalves(a) : a; };
-    storeLanes(t.plane[0] + i, stored(v.x));
-    if (t.channels > 1) storeLanes(t.plane[1] + i, stored(v.y));
-    if (t.channels > 2) storeLanes(t.plane[2] + i, stored(v.z));
-    if (t.channels > 3) storeLanes(t.plane[3] + i, stored(v.w));
+    storeLanes(t.plane[0] + i, stored(t, v.x));
+    if (t.channels > 1) storeLanes(t.plane[1] + i, stored(t, v.y));
+    if (t.channels > 2) storeLanes(t.plane[2] + i, stored(t, v.z));
+    if (t.channels > 3) storeLanes(t.plane[3] + i, stored(t, v.w));
+}
+
+// Between the lanes lie another vector's pixels.
+inline void store(const Texture& t, SparsePixel p, const Vec4& v) {
+    alignas(64) float lanes[4][laneCount];
+    storeLanes(lanes[0], stored(t, v.x));
+    storeLanes(lanes[1], stored(t, v.y));
+    storeLanes(lanes[2], stored(t, v.z));
+    storeLanes(lanes[3], stored(t, v.w));
+    for (int c = 0; c < t.channels; ++c) {
+        float* row = t.plane[c] + t.index(0, p.y);
+        for (int i = 0, x = p.x; i < laneCount && x < t.width; ++i, x += 2) row[x] = lanes[c][i];
+    }
 }
 
 // The host's image, in whatever layout the host keeps it.

@@ -9,6 +9,7 @@
 #define Vec4 vec4
 #define IVec2 ivec2
 #define Pixel ivec2
+#define SparsePixel ivec2
 #define RB_FUNCTION
 #define RB_UNROLL
 #define RB_TEXTURE_ARGUMENT highp sampler2D
@@ -90,6 +91,12 @@ vec4 roundToHalf(vec4 v) {
 }
 
 vec2 pixelCenter(ivec2 p) { return vec2(p) + 0.5f; }
+
+// An invocation is its own vector of lanes.
+int sparseCount(ivec2 p, int width) { return 1; }
+ivec2 sparsePixel(ivec2 p, int turn) { return p; }
+int columnOf(ivec2 p) { return p.x; }
+int rowOf(ivec2 p) { return p.y; }
 
 bool isInside(ivec2 p, ivec2 size) { return p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y; }
 bool reaches(highp sampler2D t, ivec2 p, ivec2 o) { return isInside(p + o, textureSize(t, 0)); }

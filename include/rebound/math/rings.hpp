@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <vector>
 
 namespace rebound {
@@ -34,11 +35,22 @@ inline constexpr double openRingReach = 1024.0;
 // level for every receiver are left out.
 std::vector<RingTexel> ringTexels(const Ring&, Extent2D level);
 
-// At most that many texels that stand for all of the ring's: every texel belongs to the sample nearest to it, and a
-// sample weighs its texels. Samples are denser near the receiver, where light changes fastest, and where more receivers
-// have them on the screen; otherwise they are spread as evenly as Lloyd's relaxation makes them, which leaves fewer
-// blotches than spirals do. With as many samples as texels each stands for itself: the brute-force sum of the ring.
-std::vector<RingTexel> ringPattern(const Ring&, int samples, Extent2D level);
+// Patterns of as many texels each, one behind the other.
+struct RingPatterns {
+    std::vector<RingTexel> texels;
+    int count = 0;        // of one pattern
+    bool isShared = true; // there is one pattern, for all receivers
+};
+
+// Few texels that stand for all of a ring's. The ring is cut into cells of nearly equal importance, annuli cut into
+// sectors, and each pattern takes a texel from every cell, which weighs the cell. Cells are smaller near the receiver,
+// where light changes fastest, and where more receivers have them on the screen. With four patterns, for the receivers
+// of a 2x2 block, each takes its texel from another quarter of the cell, so that all together are a pattern of four
+// times as many samples, and their mean weighs every texel once. With as many samples as texels each texel stands for
+// itself: the brute-force sum of the ring.
+//   samples    at most that many a pattern
+//   patterns   1 or 4; pattern column + 2 row is that of a receiver in an even or odd column and row
+RingPatterns ringPatterns(const Ring&, int samples, int patterns, Extent2D level);
 
 } // namespace rebound
 

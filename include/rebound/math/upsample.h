@@ -21,8 +21,6 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
     Vec2 base = Vec2(floor(at.x), floor(at.y));
     Vec2 fraction = at - base;
     Real inverseWidth = inverseTexelWidth(camera, receiver.z, coarseScale, projection);
-    // A coarse texel's distance from the receiver's plane is n.p - n.x with p = (ray z, z): the parts of n.p along the
-    // two columns and rows of texels serve all four.
     Vec3 n = receiver.normal;
     Real own = dot(n, position);
     Vec2 nearRay = viewRay(camera, (base + Vec2(0.5f)) * coarseScale);
@@ -34,16 +32,12 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
     for (int tap = 0; tap < 4; ++tap) {
         ivec2 offset = ivec2(tap & 1, tap >> 1);
         Vec4 surface = fetchMagnified(coarseSurfaces, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
-        Real across =
-            n.x * (nearRay.x + step.x * float(offset.x)) + n.y * (nearRay.y + step.y * float(offset.y));
-        Real distance = projection == orthographicProjection ? across + n.z * surface.w - own
-                                                             : (across + n.z) * surface.w - own;
+        Vec2 ray = Vec2(nearRay.x + step.x * float(offset.x), nearRay.y + step.y * float(offset.y));
+        Real distance = planeDistance(n, own, ray, surface.w, projection);
         Real inTexels = distance * inverseWidth;
         apartness[tap] = select(surface.w > 0.0f, planeApartness(inTexels * inTexels), Real(4e30f));
         nearest = min(nearest, apartness[tap]);
-        Vec3 scaled = Vec3(surface.x, surface.y, surface.z);
-        Real cosine = max(dot(n, scaled), Real(0.0f));
-        cosine2[tap] = cosine * cosine * reciprocal(max(dot(scaled, scaled), Real(1.2e-38f)));
+        cosine2[tap] = agreementOfNormals(n, Vec3(surface.x, surface.y, surface.z));
     }
     Vec3 sum = Vec3(0.0f);
     Real total = Real(0.0f);

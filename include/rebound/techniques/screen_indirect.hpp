@@ -36,15 +36,16 @@ struct ScreenIndirectSettings {
     Extent2D resolution;            // of the G-buffer, 1x1 to 16384x16384 [pixels]
     GBufferConventions conventions; // how the G-buffer is to be read
     StartResolution start = StartResolution::quarter;
-    int levels = 4;           // 1 to 8
-    int samplesPerLevel = 64; // 4 to 256, or wholeRings
+    int levels = 4; // 1 to 8
+    int samplesPerLevel =
+        64; // of level 0, 4 to 256, or wholeRings; each coarser one takes half as many again
     float ringRadius = 40.0f; // outer radius of every ring, 1 to 1024 [texels of its level]
     bool coverScreen = true;  // the outermost ring has no outer end: it reaches the screen's corners
     Reduction reduction = Reduction::voting;
     FormFactor formFactor = FormFactor::pointToDisc;
     float minimumCosine = 0.05f;  // a pixel's area is taken as if seen at no less, 0.001 to 1: grazing pixels
                                   // would stand for areas without bound
-    bool smooth = true;           // a 3x3 joint bilateral filter at the start resolution
+    bool smooth = true;           // four sample patterns a level, and a 5x5 joint bilateral mean over them
     bool writeIndirect = true;    // hand out irradiance over pi
     bool compose = true;          // hand out lit + albedo * indirect
     std::optional<int> onlyLevel; // show what this level alone contributes, 0 to levels - 1

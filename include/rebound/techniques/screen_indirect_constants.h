@@ -10,6 +10,8 @@ const int reduceNearest = 0;
 const int reduceVoting = 1;
 const int discFormFactor = 0;
 const int pointFormFactor = 1;
+const int unsmoothed = 0;
+const int smoothed = 1;
 
 struct ReduceConstants {
     ivec4 extent; // .xy of the level written [texels]
@@ -17,8 +19,9 @@ struct ReduceConstants {
 };
 
 struct GatherConstants {
-    ivec4 extent; // .xy of the level [texels], .z number of samples
-    vec4 scale;   // .x full-resolution pixels a texel
+    ivec4
+        extent; // .xy of the level [texels], .z samples a texel, .w the same or, where all texels share a pattern, 0
+    vec4 scale; // .x full-resolution pixels a texel
 };
 
 // A sample of a ring: what lies at the offset stands for weight texels.

@@ -207,7 +207,9 @@ std::vector<Option> options() {
          "outer radius of every ring [texels of its level], 1 to 1024; auto: the\n"
          "smallest with which the outermost ring covers the screen\n"
          "(presets: 40 at 720 rows, in proportion elsewhere)"},
-        {"samples", "N", "samples a pixel and level, 4 to 256; all: every texel of every ring"},
+        {"samples", "N",
+         "samples a texel of level 0, 4 to 256, on each coarser level half as many\nagain; all: every texel "
+         "of every ring"},
         {"reduce", "HOW",
          "which texel lends a coarser one its place and normal: nearest to the eye,\n"
          "or by voting (presets: voting)"},
@@ -218,7 +220,8 @@ std::vector<Option> options() {
         {"cover-screen", "SWITCH",
          "the outermost ring reaches the screen's corners, or ends at its radius: on or off\n"
          "(presets: on)"},
-        {"smooth", "SWITCH", "a 3x3 filter at the start resolution: on or off (presets: on)"},
+        {"smooth", "SWITCH",
+         "four sample patterns a level and a 5x5 mean over them, or one pattern:\non or off (presets: on)"},
         {"only-level", "K", "show what this level alone contributes, 0 to levels - 1 (default: all)", false},
     };
 }

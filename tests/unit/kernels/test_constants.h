@@ -65,6 +65,13 @@ const int accessHostMinified = 8;
 const int accessCenter = 9;
 const int accessCount = 10;
 
+// Modes of the sparse kernel.
+const int sparseFetch = 0;
+const int sparseOffset = 1;
+const int sparseReaches = 2;
+const int sparsePlace = 3;
+const int sparseModeCount = 4;
+
 struct AccessConstants {
     ivec4 extent; // .xy of the image written [texels], .z shift, .w bias
     ivec4 offset; // .xy [texels]
