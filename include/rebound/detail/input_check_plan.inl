@@ -153,7 +153,7 @@ private:
 template <class T>
 NamedConstants namedConstants(std::string_view name, const T& constants) {
     const std::byte* bytes = reinterpret_cast<const std::byte*>(&constants);
-    return {name, {bytes, bytes + sizeof(T)}};
+    return {std::string(name), {bytes, bytes + sizeof(T)}};
 }
 
 inline PlaneConstants planeConstants(const Camera&, const GBufferConventions&);
