@@ -75,6 +75,7 @@ Binding bindingOf(const Resource& r, std::byte* memory) {
     b.size = r.size;
     if (isOwn(r.kind)) b.data = memory;
     if (isOwn(r.kind) && isImage(r.kind)) {
+        b.holdsHalves = r.format == Format::rgba16f;
         const ImageLayout layout = layoutOf(r);
         b.data = reinterpret_cast<float*>(memory) + planeMargin;
         b.pixelStride = sizeof(float);

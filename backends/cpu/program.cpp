@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "image_check.hpp"
 #include "program_state.hpp"
 
 #include <algorithm>
@@ -15,33 +16,6 @@ Image packedImage(void* data, Extent2D extent, int channels, Scalar scalar) {
     image.channels = channels;
     image.scalar = scalar;
     return image;
-}
-
-constexpr ptrdiff_t sizeOf(Scalar s) { return s == Scalar::float16 ? 2 : 4; }
-
-Result<> checkImage(const Resource& r, const Image& image) {
-    const std::string what = "inputs.images: " + r.name;
-    if (!image.data) return invalidArgument(what + " has no data");
-    if (image.extent != r.extent)
-        return invalidArgument(what + " is " + detail::toText(image.extent) + "; " +
-                               detail::toText(r.extent) + " was expected");
-    if (image.channels < r.channels || image.channels > 4)
-        return invalidArgument(what + " has " + std::to_string(image.channels) + " channels; " +
-                               std::to_string(r.channels) + " to 4 were expected");
-    if ((image.scalar == Scalar::uint32) != isInteger(r.format))
-        return invalidArgument(what + " holds " +
-                               (image.scalar == Scalar::uint32 ? "unsigned integers" : "floats") +
-                               ", where the plan's " + name(r.format) + " was expected");
-    const ptrdiff_t size = sizeOf(image.scalar);
-    const bool aligned = reinterpret_cast<uintptr_t>(image.data) % size_t(size) == 0 &&
-                         image.pixelStride % size == 0 && image.rowStride % size == 0 &&
-                         image.channelStride % size == 0;
-    if (!aligned || image.pixelStride == 0 || (image.rowStride == 0 && image.extent.height > 1))
-        return invalidArgument(what + " has strides of " + std::to_string(image.pixelStride) + ", " +
-                               std::to_string(image.rowStride) + " and " +
-                               std::to_string(image.channelStride) + " bytes; multiples of " +
-                               std::to_string(size) + ", not zero, were expected");
-    return {};
 }
 
 Result<> checkBuffer(const Resource& r, const Buffer& buffer) {
@@ -161,13 +135,10 @@ void Program::onPass(std::function<void(int)> callback) { state->passCallback = 
 Result<> Program::record(const FrameInputs<Image>& inputs) {
     auto resolved = detail::resolveInputs(state->plan, inputs);
     if (!resolved) return resolved.error();
-    for (size_t i = 0; i < state->plan.resources.size(); ++i) {
-        const Resource& r = state->plan.resources[i];
-        if (const Image* image = resolved->images[i])
-            if (auto valid = checkImage(r, *image); !valid) return valid.error();
+    if (auto valid = checkImages(state->plan, resolved->images); !valid) return valid.error();
+    for (size_t i = 0; i < state->plan.resources.size(); ++i)
         if (const Buffer* buffer = resolved->buffers[i])
-            if (auto valid = checkBuffer(r, *buffer); !valid) return valid.error();
-    }
+            if (auto valid = checkBuffer(state->plan.resources[i], *buffer); !valid) return valid.error();
 
     const std::array<int32_t, 4> frameState = state->frames.state();
     state->historyWritten = state->frames.written();

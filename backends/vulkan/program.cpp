@@ -63,6 +63,16 @@ Result<> checkBuffer(const State& s, const Resource& r, const Buffer& buffer) {
     return {};
 }
 
+// What passes write is no other image of the frame.
+Result<> checkAlone(const Plan& plan, size_t output, const std::vector<const Image*>& images) {
+    for (size_t i = 0; i < images.size(); ++i)
+        if (i != output && images[i] && images[i]->view == images[output]->view)
+            return invalidArgument("inputs.images: " + plan.resources[output].name + " and " +
+                                   plan.resources[i].name +
+                                   " have one view; an output of its own was expected");
+    return {};
+}
+
 Result<> checkInputs(const State& s, const Inputs& inputs) {
     for (size_t i = 0; i < s.plan.resources.size(); ++i) {
         const Resource& r = s.plan.resources[i];
@@ -71,6 +81,9 @@ Result<> checkInputs(const State& s, const Inputs& inputs) {
         if (const Buffer* buffer = inputs.buffers[i])
             if (auto valid = checkBuffer(s, r, *buffer); !valid) return valid;
     }
+    for (size_t i = 0; i < s.plan.resources.size(); ++i)
+        if (s.plan.resources[i].kind == ResourceKind::output)
+            if (auto alone = checkAlone(s.plan, i, inputs.images); !alone) return alone;
     return {};
 }
 

@@ -4,10 +4,10 @@
 
 // Sums of sums, fewer.
 RB_KERNEL(Fold)
-RB_TEXTURE(0, from0)
-RB_TEXTURE(1, from1)
-RB_TEXTURE(2, from2)
-RB_TEXTURE(3, from3)
+RB_TEXTURE_OF_ANY_SIZE(0, from0)
+RB_TEXTURE_OF_ANY_SIZE(1, from1)
+RB_TEXTURE_OF_ANY_SIZE(2, from2)
+RB_TEXTURE_OF_ANY_SIZE(3, from3)
 RB_IMAGE(4, rgba32f, sums0)
 RB_IMAGE(5, rgba32f, sums1)
 RB_IMAGE(6, rgba32f, sums2)

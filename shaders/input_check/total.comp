@@ -4,10 +4,10 @@
 
 // The sum of each of four images, side by side.
 RB_KERNEL(Total)
-RB_TEXTURE(0, from0)
-RB_TEXTURE(1, from1)
-RB_TEXTURE(2, from2)
-RB_TEXTURE(3, from3)
+RB_TEXTURE_OF_ANY_SIZE(0, from0)
+RB_TEXTURE_OF_ANY_SIZE(1, from1)
+RB_TEXTURE_OF_ANY_SIZE(2, from2)
+RB_TEXTURE_OF_ANY_SIZE(3, from3)
 RB_IMAGE(4, rgba32f, row)
 RB_CONSTANTS(5, TileConstants, k)
 RB_MAIN(pixel, k.grid)

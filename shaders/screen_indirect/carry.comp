@@ -12,8 +12,8 @@
 RB_KERNEL(Carry)
 RB_FEATURE(0, projection, 2)
 RB_TEXTURE(0, surfaces)
-RB_TEXTURE(1, coarseSurfaces)
-RB_TEXTURE(2, coarseIndirect)
+RB_TEXTURE_OF_ANY_SIZE(1, coarseSurfaces)
+RB_TEXTURE_OF_ANY_SIZE(2, coarseIndirect)
 RB_IMAGE(3, rgba16f, combined)               // irradiance over pi [W m^-2 sr^-1]
 RB_CONSTANTS(4, CameraConstants, camera)
 RB_CONSTANTS(5, UpsampleConstants, k)

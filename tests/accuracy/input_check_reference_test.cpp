@@ -76,7 +76,9 @@ std::vector<InputFinding> check(const lab::Frame& frame, const lab::Image& radia
     settings.emission = !frame.emission.empty();
     settings.conventions.projection =
         frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    const cpu::Device device = take(cpu::Device::create());
+    cpu::DeviceOptions options;
+    options.moreKernels = {cpu::inputCheckKernels};
+    const cpu::Device device = take(cpu::Device::create(options));
     cpu::Program program = take(device.compile(take(planInputCheck(settings))));
     lab::Image statistics(inputStatisticsExtent, 4);
     InputCheckFrame<cpu::Image> inputs;

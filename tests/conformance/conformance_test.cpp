@@ -33,7 +33,7 @@ std::vector<Contender> presentContenders() {
     return contenders;
 }
 
-void checkAgreement(const std::vector<NamedCase>& cases) {
+void checkAgreement(const std::vector<NamedCase>& cases, double allowed = allowedFrameDifference) {
     std::vector<Contender> contenders = presentContenders();
     const auto report = run(cases, contenders);
     REQUIRE_MESSAGE(report, (report ? "" : report.error().message));
@@ -51,6 +51,7 @@ void checkAgreement(const std::vector<NamedCase>& cases) {
         CAPTURE(row.worstCase);
         CAPTURE(row.maximum);
         CHECK(row.disagreements == 0);
+        CHECK(row.maximum <= allowed);
     }
     for (const std::string& complaint : report->complaints) FAIL_CHECK(complaint);
 }
@@ -94,7 +95,9 @@ private:
 
 TEST_CASE("backends agree on the hard cases") { checkAgreement(hardCases()); }
 TEST_CASE("backends agree on 100 random G-buffers and settings") { checkAgreement(randomCases(100, 1)); }
-TEST_CASE("backends agree on the lab's scenes") { checkAgreement(sceneCases()); }
+// Every backend rounds to the same halves between passes, so that on pictures of some ten thousand lit pixels little is
+// left: halves that a last place of a float tips over, and few decisions. Measured: 2e-4.
+TEST_CASE("backends agree on the lab's scenes, of 0.1 m to 10 km") { checkAgreement(sceneCases(), 1e-3); }
 
 TEST_CASE("a fault is found, and named by case, pass, image and texel") {
     std::vector<Contender> contenders;

@@ -14,21 +14,25 @@ namespace {
 
 constexpr Extent2D extent{5, 4};
 
-Resource resource(const char* name, Format format, int channels) {
-    return {name, ResourceKind::transient, format, channels, extent, {}, 0};
+// Of an image of that name that is half as large as the frame.
+ImageTolerance toleranceOfNamed(const char* name, Format format) {
+    Plan plan{"test", {}, {}};
+    plan.add({"depth", ResourceKind::input, Format::r32f, 1, {10, 8}, {}, 0});
+    const auto r = plan.add({name, ResourceKind::transient, format, 4, extent, {}, 0});
+    return screenIndirectTolerances(plan, 10.0f)[size_t(r)];
 }
 
-Difference single(const std::string& kernel, const Resource& r, const lab::Image& a, const lab::Image& b) {
-    return compare(kernel, {{&r, &a, &b}}, 10.0f)[0];
+Difference single(const char* name, Format format, const lab::Image& a, const lab::Image& b) {
+    const ImageTolerance tolerance = toleranceOfNamed(name, format);
+    return compare({{format, &tolerance, &a, &b}})[0];
 }
 
 } // namespace
 
 TEST_CASE("equal images agree, and so do two that are no numbers in the same place") {
-    const Resource r = resource("gathered 0", Format::rgba16f, 3);
     lab::Image a(extent, 3, 0.25f);
     a.at(1, 1)[2] = std::numeric_limits<float>::quiet_NaN();
-    const Difference d = single("screen_indirect/gather", r, a, a);
+    const Difference d = single("gathered 0", Format::rgba16f, a, a);
     CHECK(d.agrees());
     CHECK(d.texels == 20);
     CHECK(d.maximumAbsolute == 0.0);
@@ -36,12 +40,11 @@ TEST_CASE("equal images agree, and so do two that are no numbers in the same pla
 }
 
 TEST_CASE("one value out of bounds is found, with its place and its figures") {
-    const Resource r = resource("combined 0", Format::rgba16f, 3);
     const lab::Image a(extent, 3, 0.25f);
     lab::Image b = a;
     b.at(3, 2)[1] = 0.5f;
     b.at(0, 0)[0] = 0.25f + 0.25f / 1024.0f; // one unit in the last place of a half
-    const Difference d = single("screen_indirect/combine", r, a, b);
+    const Difference d = single("combined 0", Format::rgba16f, a, b);
     CHECK_FALSE(d.agrees());
     CHECK(d.beyond == 1);
     CHECK(d.decisions == 0);
@@ -56,19 +59,18 @@ TEST_CASE("one value out of bounds is found, with its place and its figures") {
 }
 
 TEST_CASE("a number against no number is beyond any tolerance") {
-    const Resource r = resource("combined 0", Format::rgba16f, 3);
     const lab::Image a(extent, 3, 0.25f);
     for (float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         lab::Image b = a;
         b.at(4, 3)[0] = bad;
-        CHECK(single("screen_indirect/combine", r, a, b).beyond == 1);
-        CHECK(single("screen_indirect/combine", r, b, a).beyond == 1);
+        CHECK(single("combined 0", Format::rgba16f, a, b).beyond == 1);
+        CHECK(single("combined 0", Format::rgba16f, b, a).beyond == 1);
     }
 }
 
 TEST_CASE("another choice of four texels is a decision; another area is not") {
-    const Resource surface = resource("surface 1", Format::rgba32f, 4),
-                   light = resource("light 1", Format::rgba16f, 4);
+    ImageTolerance surface = toleranceOfNamed("surface 1", Format::rgba32f);
+    const ImageTolerance light = toleranceOfNamed("light 1", Format::rgba16f);
     lab::Image s(extent, 4), l(extent, 4, 0.5f);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
@@ -81,23 +83,33 @@ TEST_CASE("another choice of four texels is a decision; another area is not") {
     otherPlace.at(2, 2)[2] = 0.3f;
     otherLight.at(2, 2)[3] = 0.6f; // follows from the other depth
     const auto decided =
-        compare("screen_indirect/reduce", {{&surface, &s, &otherPlace}, {&light, &l, &otherLight}}, 1.0f);
+        compare({{Format::rgba32f, &surface, &s, &otherPlace}, {Format::rgba16f, &light, &l, &otherLight}});
     for (const Difference& d : decided) {
         CHECK(d.decisions == 1);
         CHECK(d.beyond == 0);
         CHECK(d.agrees());
     }
     otherArea.at(2, 2)[2] = 0.5f;
-    CHECK(single("screen_indirect/reduce", surface, s, otherArea).beyond == 1);
-    // Only reduction decides.
-    CHECK(single("screen_indirect/prepare", surface, s, otherPlace).beyond == 1);
+    CHECK(single("surface 1", Format::rgba32f, s, otherArea).beyond == 1);
+    // Only where a texel stands for finer ones is there a choice.
+    surface.isChosen = false;
+    CHECK(compare({{Format::rgba32f, &surface, &s, &otherPlace}})[0].beyond == 1);
+}
+
+TEST_CASE("surfaces at the frame's own resolution are no choice, and those of coarser levels are") {
+    Plan plan{"test", {}, {}};
+    plan.add({"depth", ResourceKind::input, Format::r32f, 1, extent, {}, 0});
+    plan.add({"surface 0", ResourceKind::transient, Format::rgba32f, 4, extent, {}, 0});
+    plan.add({"surface 1", ResourceKind::transient, Format::rgba32f, 4, {3, 2}, {}, 0});
+    const auto tolerances = screenIndirectTolerances(plan, 1.0f);
+    CHECK_FALSE(tolerances[1].isChosen);
+    CHECK(tolerances[2].isChosen);
 }
 
 TEST_CASE("many decisions are a disagreement") {
-    const Resource surface = resource("surface 1", Format::rgba32f, 4);
     lab::Image a(extent, 4, 1.0f), b = a;
     for (int x = 0; x < extent.width; ++x) b.at(x, 0)[3] = 2.0f;
-    const Difference d = single("screen_indirect/reduce", surface, a, b);
+    const Difference d = single("surface 1", Format::rgba32f, a, b);
     CHECK(d.decisions == 5);
     CHECK_FALSE(d.agrees());
 }

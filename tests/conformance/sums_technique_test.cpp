@@ -4,7 +4,10 @@
 #include "each_backend.hpp"
 #include "sums_technique.hpp"
 
+#include "lab/conformance/conformance.hpp"
 #include "lab/conformance/gbuffer.hpp"
+
+#include <bit>
 
 using namespace rebound;
 using namespace rebound::test;
@@ -33,7 +36,93 @@ runner::PlanInputs inputsOf(const std::vector<float>& picture, const SharedBytes
     return inputs;
 }
 
+// Four frames.
+conformance::NamedCase sequence() {
+    return {"sums", []() -> Result<conformance::Case> {
+                const SharedBytes shared = sharedBytes(weights);
+                conformance::Case c{
+                    planSums(extent), inputsOf(pictureOf(0, 0), shared), runner::Precision::single, {}, {}};
+                for (const Resource& r : c.plan.resources)
+                    c.tolerances.push_back(conformance::toleranceOf(r.format));
+                for (int frame = 1; frame < 4; ++frame)
+                    c.later.push_back(inputsOf(pictureOf(frame, 0), shared));
+                return c;
+            }};
+}
+
+// Spoils an integer and an element of a buffer in the third frame.
+class LateFault : public runner::PreparedPlan {
+public:
+    explicit LateFault(std::unique_ptr<runner::PreparedPlan> p) : plan(std::move(p)) {}
+    Result<> setInputs(const runner::PlanInputs& inputs) override { return plan->setInputs(inputs); }
+    Result<double> run() override { return plan->run(); }
+    void reset() override { plan->reset(); }
+    const std::vector<PassTiming>& timings() const override { return plan->timings(); }
+    MemoryUse memoryUse() const override { return plan->memoryUse(); }
+    Result<lab::Image> read(const std::string& output) override { return plan->read(output); }
+    Result<runner::Record> inspect(const runner::Record* replacement) override {
+        auto record = plan->inspect(replacement);
+        if (!record || frame++ != 2) return record;
+        record->at(0).at(0).image.data[5] = std::bit_cast<float>(uint32_t(7)); // keys, as bits
+        record->at(1).at(0).image.data[6] += 1.0f;                             // sums
+        return record;
+    }
+
+private:
+    std::unique_ptr<runner::PreparedPlan> plan;
+    int frame = 0;
+};
+
+class LateFaultBackend : public runner::Backend {
+public:
+    explicit LateFaultBackend(std::unique_ptr<runner::Backend> b) : backend(std::move(b)) {}
+    runner::BackendInfo info() const override { return backend->info(); }
+    Result<MemoryUse> memoryUse(const Plan& plan) const override { return backend->memoryUse(plan); }
+    Result<std::unique_ptr<runner::PreparedPlan>> prepare(const Plan& plan, const runner::PlanInputs& inputs,
+                                                          const runner::PrepareOptions& options) override {
+        auto prepared = backend->prepare(plan, inputs, options);
+        if (!prepared) return prepared.error();
+        return std::unique_ptr<runner::PreparedPlan>(std::make_unique<LateFault>(*std::move(prepared)));
+    }
+
+private:
+    std::unique_ptr<runner::Backend> backend;
+};
+
 } // namespace
+
+TEST_CASE("conformance compares every pass of every frame, history, buffers and integers included") {
+    std::vector<conformance::Contender> contenders;
+    for (const runner::BackendChoice& choice : choices())
+        if (auto backend = runner::createBackend(choice))
+            contenders.push_back({runner::toText((*backend)->info()), *std::move(backend)});
+    const auto report = conformance::run({sequence()}, contenders, {}, choices().front());
+    REQUIRE_MESSAGE(report, (report ? "" : report.error().message));
+    CHECK(report->agrees());
+    REQUIRE(report->frames.size() == contenders.size());
+    for (const conformance::FrameRow& row : report->frames)
+        CHECK(row.maximum == 0.0); // all arithmetic is exact
+    // By contender, five kernels; keys and list, after, before and report, mean, shown; four frames.
+    size_t images = 0;
+    for (const conformance::Report::Row& row : report->rows) images += row.images;
+    CHECK(images == contenders.size() * 7 * 4);
+}
+
+TEST_CASE("a fault in a later frame is found, and named by its frame") {
+    std::vector<conformance::Contender> contenders;
+    contenders.push_back(
+        {"faulty", std::make_unique<LateFaultBackend>(*runner::createBackend(choices().front()))});
+    const auto report = conformance::run({sequence()}, contenders, {}, choices().front());
+    REQUIRE(report);
+    CHECK_FALSE(report->agrees());
+    REQUIRE(report->disagreements.size() == 2);
+    CHECK(report->disagreements[0].caseName == "sums, frame 2");
+    CHECK(report->disagreements[0].resource == "keys");
+    CHECK(report->disagreements[0].difference.beyond == 1);
+    CHECK(report->disagreements[1].caseName == "sums, frame 2");
+    CHECK(report->disagreements[1].resource == "after");
+    CHECK(report->disagreements[1].difference.worstX == 6);
+}
 
 TEST_CASE("every frame of the made-up technique is what a plain loop gives, also after a reset") {
     const SharedBytes shared = sharedBytes(weights);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The unit tests' kernels on OpenGL, against the CPU one pixel at a time.
 #include "arithmetic_operands.hpp"
+#include "half_operands.hpp"
 #include "opengl_runner.hpp"
 #include "test_scene.hpp"
 
@@ -57,6 +58,15 @@ void checkArithmetic(const opengl::Device& device, int operation, Operands o, co
 }
 
 } // namespace
+
+TEST_CASE("OpenGL stores the nearest half, at most 65504, whatever the driver would make of it") {
+    const Picture source = numbersAroundHalves();
+    inEachContext([&](host::OpenGLContext&) {
+        const Pictures outputs =
+            runPlan(createDevice(), halvesPlan(source.extent), {{"host", source}}, Format::rgba32f);
+        checkNearestHalves(source, outputs.at("result"));
+    });
+}
 
 TEST_CASE("OpenGL reads images as the CPU does: every mode, inside and outside") {
     const Extent2D sources[] = {{1, 1}, {8, 8}, {17, 5}, {33, 9}};

@@ -4,7 +4,7 @@
 
 #include "test_scene.hpp"
 
-#include "rebound/techniques/input_check.hpp"
+#include "rebound/detail/input_check_statistics.hpp"
 
 #include <set>
 

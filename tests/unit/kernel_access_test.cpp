@@ -31,6 +31,11 @@ Plan accessPlan(const AccessCase& c) {
         {"leave numbers", "copy", {}, {{0, dirt}, {1, left, Access::write}, {2, constants}}, large});
     plan.passes.push_back(
         {"copy", "copy", {}, {{0, host}, {1, source, Access::write}, {2, constants}}, c.source});
+    if (c.mode == accessFetch) {
+        plan.passes.push_back(
+            {"fetch", "fetch", {}, {{0, source}, {1, result, Access::write}, {2, constants}}, c.grid});
+        return plan;
+    }
     plan.passes.push_back({"access",
                            "access",
                            {c.mode},

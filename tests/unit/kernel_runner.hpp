@@ -15,7 +15,8 @@
 
 namespace rebound::cpu {
 std::span<const KernelEntry* const> testKernels(Isa);
-}
+std::span<const KernelEntry* const> inputCheckKernels(Isa);
+} // namespace rebound::cpu
 namespace rebound {
 std::span<const Shader* const> testShaders();
 }
@@ -66,7 +67,7 @@ inline cpu::Device deviceFor(cpu::Isa isa, int threads = 1) {
     cpu::DeviceOptions options;
     options.isa = isa;
     options.threads = threads;
-    options.moreKernels = {cpu::testKernels};
+    options.moreKernels = {cpu::testKernels, cpu::inputCheckKernels};
     auto device = cpu::Device::create(options);
     REQUIRE(device);
     return *device;

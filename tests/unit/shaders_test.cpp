@@ -2,6 +2,7 @@
 // Shaders for GPUs, embedded, and the plans that name them.
 #include "kernel_runner.hpp"
 
+#include "rebound/techniques/input_check.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
 #include <set>
@@ -35,6 +36,7 @@ bool usesFeature(std::string_view glsl, int id) {
 TEST_CASE("every kernel has a shader of the same name, in SPIR-V and in GLSL") {
     for (cpu::Isa isa : cpu::availableIsas()) {
         checkShaders(techniqueShaders(), cpu::techniqueKernels(isa));
+        checkShaders(inputCheckShaders(), cpu::inputCheckKernels(isa));
         checkShaders(testShaders(), cpu::testKernels(isa));
     }
 }
@@ -75,6 +77,7 @@ TEST_CASE("a shader declares the slots and features that its kernel has, and the
                 }
     };
     check(techniqueShaders(), cpu::techniqueKernels(cpu::Isa::scalar));
+    check(inputCheckShaders(), cpu::inputCheckKernels(cpu::Isa::scalar));
     check(testShaders(), cpu::testKernels(cpu::Isa::scalar));
 }
 

@@ -156,6 +156,8 @@ TEST_CASE("frames that a program refuses, recording nothing") {
     refuse("host has no view", [](Inputs& i) { i.images[0].image.view = VK_NULL_HANDLE; });
     refuse("result has no view", [](Inputs& i) { i.images[1].image.view = VK_NULL_HANDLE; });
     refuse("host is 20x4; 20x5 was expected", [](Inputs& i) { i.images[0].image.extent.height = 4; });
+    refuse("result and host have one view; an output of its own was expected",
+           [](Inputs& i) { i.images[1].image.view = i.images[0].image.view; });
     refuse("result is 21x5; 20x5 was expected", [](Inputs& i) { i.images[1].image.extent.width = 21; });
     refuse("rgba32f, was expected",
            [](Inputs& i) { i.images[1].image.format = VK_FORMAT_R16G16B16A16_SFLOAT; });

@@ -3,6 +3,7 @@
 #include "vulkan_host.hpp"
 
 #include "../unit/arithmetic_operands.hpp"
+#include "../unit/half_operands.hpp"
 #include "../unit/test_camera.hpp"
 
 #include <cmath>
@@ -99,6 +100,13 @@ TEST_CASE("whole numbers, vectors, and what is not finite") {
     Operands hard =
         everyPair({0.0f, 1.0f, infinity, -infinity, std::numeric_limits<float>::quiet_NaN(), 3e38f});
     compare.check(arithmetic(opIsFinite, hard), 0.0); // looks at bits
+}
+
+TEST_CASE("images of halves: the nearest one, at most 65504, whatever the driver would make of it") {
+    const auto host = VulkanHost::open();
+    const Picture source = numbersAroundHalves();
+    checkNearestHalves(source,
+                       runOnVulkan(*host, host->device(), halvesPlan(source.extent), {{"host", source}}, {}));
 }
 
 TEST_CASE("access: every way to read an image, exact") {

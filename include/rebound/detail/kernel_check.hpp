@@ -65,6 +65,10 @@ inline Result<> checkBinding(const Plan& plan, const Pass& pass, const PassBindi
                                (takesIntegers(info, binding.slot) ? "unsigned integers" : "floats"));
     if (binding.access == Access::write && isImage(r.kind) && r.extent != pass.grid)
         return invalidArgument(what + " writes " + r.name + ", whose size is not that of the pass's grid");
+    const bool isCovered = r.extent.width >= pass.grid.width && r.extent.height >= pass.grid.height;
+    if ((info.grids >> binding.slot & 1) != 0 && !isCovered)
+        return invalidArgument(what + " binds " + r.name + ", which is " + toText(r.extent) + ", to " + slot +
+                               ", which reads it at every pixel of a grid of " + toText(pass.grid));
     if (r.size < atLeast)
         return invalidArgument(what + " binds " + r.name + ", which has " + std::to_string(r.size) +
                                " bytes, to " + slot + ", which takes " + std::to_string(atLeast));

@@ -18,6 +18,7 @@ inline constexpr int rowAlignment = 16; // of the distance between rows [floats]
 struct Binding {
     BindingKind kind = BindingKind::none;
     bool isHalf = false;       // input, output: half floats instead of floats
+    bool holdsHalves = false;  // of the device's own: floats that stand for halves, and end where those do
     int width = 0, height = 0; // [texels]
     int channels = 0;
     size_t size = 0;             // of buffers and constants [bytes]

@@ -11,14 +11,15 @@ inline Vec2 pixelCenter(Pixel p) {
 }
 
 // Rebound's own image: a plane a channel, zero in the padding around the rows. Absent channels repeat channel 0.
-struct Texture {
+struct TextureOfAnySize {
     float* plane[4];
     int width, height, channels;
+    bool holdsHalves;
     ptrdiff_t rowStride; // [floats]
 
-    Texture() = default;
-    explicit Texture(const Binding& b)
-        : width(b.width), height(b.height), channels(b.channels),
+    TextureOfAnySize() = default;
+    explicit TextureOfAnySize(const Binding& b)
+        : width(b.width), height(b.height), channels(b.channels), holdsHalves(b.holdsHalves),
           rowStride(b.rowStride / ptrdiff_t(sizeof(float))) {
         for (int c = 0; c < 4; ++c)
             plane[c] = static_cast<float*>(b.data) +
@@ -27,13 +28,18 @@ struct Texture {
     ptrdiff_t index(int x, int y) const { return y * rowStride + x; }
 };
 
+// One that has a texel at every pixel of the grid: devices see to it.
+struct Texture : TextureOfAnySize {
+    using TextureOfAnySize::TextureOfAnySize;
+};
+
 // True where some lane of pixel + offset lies inside: if false, every lane's fetchOffset is zero.
-inline bool reaches(const Texture& t, Pixel p, ivec2 o) {
+inline bool reaches(const TextureOfAnySize& t, Pixel p, ivec2 o) {
     const int x = p.x + o.x, y = p.y + o.y;
     return unsigned(y) < unsigned(t.height) && x > -laneCount && x < t.width;
 }
 
-inline Vec4 fetchInside(const Texture& t, int x, int y) {
+inline Vec4 fetchInside(const TextureOfAnySize& t, int x, int y) {
     const ptrdiff_t i = t.index(x, y);
     return Vec4(loadLanes(t.plane[0] + i), loadLanes(t.plane[1] + i), loadLanes(t.plane[2] + i),
                 loadLanes(t.plane[3] + i));
@@ -43,12 +49,12 @@ inline Vec4 fetchInside(const Texture& t, int x, int y) {
 inline Vec4 fetch(const Texture& t, Pixel p) { return fetchInside(t, p.x, p.y); }
 
 // The texel at pixel + a uniform offset; zero outside.
-inline Vec4 fetchOffset(const Texture& t, Pixel p, ivec2 o) {
+inline Vec4 fetchOffset(const TextureOfAnySize& t, Pixel p, ivec2 o) {
     return reaches(t, p, o) ? fetchInside(t, p.x + o.x, p.y + o.y) : Vec4(Real(0.0f));
 }
 
 // The texel at 2 * pixel + offset, for offsets of -2 to 3; zero outside.
-inline Vec4 fetchMinified(const Texture& t, Pixel p, ivec2 o) {
+inline Vec4 fetchMinified(const TextureOfAnySize& t, Pixel p, ivec2 o) {
     const int x = 2 * p.x + o.x, y = 2 * p.y + o.y;
     if (unsigned(y) >= unsigned(t.height) || x >= t.width) return Vec4(Real(0.0f));
     const ptrdiff_t i = t.index(x, y);
@@ -57,7 +63,7 @@ inline Vec4 fetchMinified(const Texture& t, Pixel p, ivec2 o) {
 }
 
 // The texel at ((pixel + bias) >> shift) + offset, for biases of 0 to 2^shift and offsets of -1 to 1; zero outside.
-inline Vec4 fetchMagnified(const Texture& t, Pixel p, ivec2 bias, int shift, ivec2 o) {
+inline Vec4 fetchMagnified(const TextureOfAnySize& t, Pixel p, ivec2 bias, int shift, ivec2 o) {
     const int x = (p.x + bias.x) >> shift, y = ((p.y + bias.y) >> shift) + o.y;
     const int phase = (p.x + bias.x) & ((1 << shift) - 1);
     if (unsigned(y) >= unsigned(t.height) || x + o.x > t.width) return Vec4(Real(0.0f));
@@ -67,7 +73,7 @@ inline Vec4 fetchMagnified(const Texture& t, Pixel p, ivec2 bias, int shift, ive
 }
 
 // Any texel, lane by lane; zero outside. The slowest access on a CPU.
-inline Vec4 fetchAt(const Texture& t, IVec2 at) {
+inline Vec4 fetchAt(const TextureOfAnySize& t, IVec2 at) {
     alignas(64) int32_t x[laneCount], y[laneCount];
     alignas(64) float lanes[4][laneCount];
     storeLanes(x, at.x);
@@ -82,10 +88,11 @@ inline Vec4 fetchAt(const Texture& t, IVec2 at) {
 // Lanes beyond the right side land in the padding; the backend clears it when the row is done.
 inline void store(const Texture& t, Pixel p, const Vec4& v) {
     const ptrdiff_t i = t.index(p.x, p.y);
-    storeLanes(t.plane[0] + i, v.x);
-    if (t.channels > 1) storeLanes(t.plane[1] + i, v.y);
-    if (t.channels > 2) storeLanes(t.plane[2] + i, v.z);
-    if (t.channels > 3) storeLanes(t.plane[3] + i, v.w);
+    const auto stored = [&](Real a) { return t.holdsHalves ? withinHalves(a) : a; };
+    storeLanes(t.plane[0] + i, stored(v.x));
+    if (t.channels > 1) storeLanes(t.plane[1] + i, stored(v.y));
+    if (t.channels > 2) storeLanes(t.plane[2] + i, stored(v.z));
+    if (t.channels > 3) storeLanes(t.plane[3] + i, stored(v.w));
 }
 
 // The host's image, in whatever layout the host keeps it.
@@ -115,6 +122,7 @@ struct HostImage {
     }
     void storeLanesOf(int channel, Pixel p, Real v) const {
         if (channel >= image.channels) return;
+        if (image.holdsHalves) v = withinHalves(v);
         if (contiguous() && p.x + laneCount <= image.width) {
             char* to = address(channel, p.x, p.y);
             if (image.isHalf) storeHalves(reinterpret_cast<uint16_t*>(to), v);

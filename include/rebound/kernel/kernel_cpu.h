@@ -4,12 +4,12 @@
 #include "rebound/kernel/lanes.h"
 
 inline float halfToFloat(uint16_t h) { return glm::unpackHalf1x16(h); }
-// glm::packHalf1x16 rounds halfway cases up; processors and GPUs round them to even.
+// To the nearest, halfway cases to the even one (glm::packHalf1x16 rounds them up), and at most 65504.
 inline uint16_t floatToHalf(float f) {
     const uint32_t bits = __builtin_bit_cast(uint32_t, f), magnitude = bits & 0x7fffffffu;
     uint32_t half;
     if (magnitude > 0x7f800000u) half = 0x7e00u;
-    else if (magnitude >= 0x477ff000u) half = 0x7c00u; // from 65520 on infinite
+    else if (magnitude >= 0x477fe000u) half = 0x7bffu; // from 65504 on the largest
     else if (magnitude < 0x38800000u) // a denormal half: where 0.5 is added, the unit is 2^-24
         half = __builtin_bit_cast(uint32_t, __builtin_bit_cast(float, magnitude) + 0.5f) - 0x3f000000u;
     else half = (magnitude - 0x38000000u + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
@@ -30,7 +30,7 @@ inline uint16_t floatToHalf(float f) {
 #else
 #define RB_UNROLL
 #endif
-#define RB_TEXTURE_ARGUMENT const Texture&
+#define RB_TEXTURE_ARGUMENT const TextureOfAnySize&
 
 template <int id>
 struct Slot {};
@@ -65,12 +65,17 @@ constexpr int featureValue() {
     void bind(Slot<slot>, const Binding& binding) { name = decltype(name)(binding); }
 #define RB_TEXTURE(slot, name)                                                                               \
     Texture name;                                                                                            \
+    static constexpr bool fillsGrid(Slot<slot>) { return true; }                                             \
+    RB_BIND(slot, texture, name)
+#define RB_TEXTURE_OF_ANY_SIZE(slot, name)                                                                   \
+    TextureOfAnySize name;                                                                                   \
     RB_BIND(slot, texture, name)
 #define RB_INPUT(slot, name)                                                                                 \
     HostImage name;                                                                                          \
     RB_BIND(slot, input, name)
 #define RB_UINT_TEXTURE(slot, name)                                                                          \
     UIntTexture name;                                                                                        \
+    static constexpr bool fillsGrid(Slot<slot>) { return true; }                                             \
     RB_BIND(slot, uintTexture, name)
 #define RB_UINT_INPUT(slot, name)                                                                            \
     UIntHostImage name;                                                                                      \

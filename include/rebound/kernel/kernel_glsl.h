@@ -36,17 +36,30 @@
 #endif
 
 #define RB_TEXTURE(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
+#define RB_TEXTURE_OF_ANY_SIZE(slot, name) RB_TEXTURE(slot, name)
 #define RB_INPUT(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
 #define RB_UINT_TEXTURE(slot, name) layout(RB_LAYOUT(slot)) uniform highp usampler2D name;
 #define RB_UINT_INPUT(slot, name) layout(RB_LAYOUT(slot)) uniform highp usampler2D name;
+#define RB_IMAGE(slot, format, name)                                                                         \
+    layout(RB_LAYOUT(slot), format) writeonly uniform highp RB_IMAGE_OF_##format name;                       \
+    RB_TEXEL_OF_##format name##Stored(RB_TEXEL_OF_##format v) { return RB_STORED_##format(v); }
+#define RB_OUTPUT(slot, format, name) RB_IMAGE(slot, format, name)
+// A format's images and texels, and what it makes of a texel.
 #define RB_IMAGE_OF_r32f image2D
 #define RB_IMAGE_OF_rgba16f image2D
 #define RB_IMAGE_OF_rgba32f image2D
 #define RB_IMAGE_OF_r32ui uimage2D
 #define RB_IMAGE_OF_rgba32ui uimage2D
-#define RB_IMAGE(slot, format, name)                                                                         \
-    layout(RB_LAYOUT(slot), format) writeonly uniform highp RB_IMAGE_OF_##format name;
-#define RB_OUTPUT(slot, format, name) RB_IMAGE(slot, format, name)
+#define RB_TEXEL_OF_r32f vec4
+#define RB_TEXEL_OF_rgba16f vec4
+#define RB_TEXEL_OF_rgba32f vec4
+#define RB_TEXEL_OF_r32ui uvec4
+#define RB_TEXEL_OF_rgba32ui uvec4
+#define RB_STORED_r32f(v) (v)
+#define RB_STORED_rgba32f(v) (v)
+#define RB_STORED_rgba16f(v) roundToHalf(v)
+#define RB_STORED_r32ui(v) (v)
+#define RB_STORED_rgba32ui(v) (v)
 #define RB_BUFFER(slot, Type, name)                                                                          \
     layout(RB_LAYOUT(slot), std430) readonly buffer name##Block { Type name[]; };
 #define RB_VALUES(slot, Type, name)                                                                          \
@@ -87,7 +100,30 @@ uint toUInt(int x) { return uint(x); }
 uint toUInt(float x) { return uint(x); }
 // A macro, since GLSL reserves the word.
 #define varying(v) (v)
-bool isFinite(float x) { return (floatBitsToInt(x) & 0x7f800000) != 0x7f800000; }
+int bitsOf(float x) { return floatBitsToInt(x); }
+float realOfBits(int x) { return intBitsToFloat(x); }
+bool isFinite(float x) { return (bitsOf(x) & 0x7f800000) != 0x7f800000; }
+
+// The nearest half, halfway cases to the even one; beyond their range, infinities included, the largest: +-65504. NaN
+// stays NaN. Drivers may round towards zero where they store halves, and beyond 65504 to infinity, which a later pass
+// would spread: so stores to half formats round before.
+float roundToHalf(float v) {
+    int bits = bitsOf(v);
+    int magnitude = bits & 0x7fffffff;
+    int limited = min(magnitude, 0x477fe000);
+    int rounded = (limited + 0xfff + ((limited >> 13) & 1)) & 0x7fffe000;
+    if (limited < 0x38800000) { // below 2^-14 halves lie 2^-24 apart; no sum that a compiler may shorten
+        float scaled = realOfBits(limited) * 16777216.0f;
+        int whole = int(scaled);
+        float rest = scaled - float(whole);
+        if (rest > 0.5f || (rest == 0.5f && (whole & 1) == 1)) whole += 1;
+        rounded = bitsOf(float(whole) * 5.9604645e-8f);
+    }
+    return magnitude > 0x7f800000 ? v : realOfBits((bits - magnitude) + rounded);
+}
+vec4 roundToHalf(vec4 v) {
+    return vec4(roundToHalf(v.x), roundToHalf(v.y), roundToHalf(v.z), roundToHalf(v.w));
+}
 
 vec2 pixelCenter(ivec2 p) { return vec2(p) + 0.5f; }
 
@@ -108,7 +144,7 @@ vec4 fetchMagnified(highp sampler2D t, ivec2 p, ivec2 bias, int shift, ivec2 o) 
     return fetchAt(t, ((p + bias) >> shift) + o);
 }
 // A macro, since SPIR-V has the image's format in a parameter's type.
-#define store(image, p, v) imageStore(image, p, v)
+#define store(image, p, v) imageStore(image, p, image##Stored(v))
 
 // Macros, since GLSL passes no buffers to functions.
 int indexOf(int item) { return item; }

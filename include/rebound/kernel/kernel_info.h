@@ -32,6 +32,12 @@ constexpr const char* nameOf() {
     else return nullptr;
 }
 
+template <int slot, class Kernel = ThisKernel<0, 0, 0, 0>>
+constexpr uint16_t gridBitOf() {
+    if constexpr (requires { Kernel::fillsGrid(Slot<slot>{}); }) return uint16_t(1u << slot);
+    else return 0;
+}
+
 inline constexpr int variantCount =
     featureCountOf<0>() * featureCountOf<1>() * featureCountOf<2>() * featureCountOf<3>();
 
@@ -64,6 +70,7 @@ constexpr KernelInfo makeKernelInfo(std::integer_sequence<int, slot...>) {
             {sizeOf<slot>()...},
             {formatOf<slot>()...},
             {nameOf<slot>()...},
+            uint16_t((0 | ... | gridBitOf<slot>())),
             ThisKernel<0, 0, 0, 0>::forItems,
             kernelCombinations.entries};
 }

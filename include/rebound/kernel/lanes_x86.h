@@ -2,6 +2,9 @@
 // Lane operations that xsimd 8.1 lacks or gets wrong, by instruction set; with a portable form of each.
 // Included by kernel_cpu.h inside the instruction set's namespace.
 
+// Halves end at 65504; NaN stays.
+inline Real withinHalves(Real a) { return min(max(a, Real(-65504.0f)), Real(65504.0f)); }
+
 #ifndef REBOUND_SCALAR_LANES
 
 // 1 / sqrt(a) and 1 / a for normal positive a, to a relative 5e-7: the processor's estimate, of 12 bits or 14, and one
@@ -86,11 +89,12 @@ inline Real loadHalves(const uint16_t* p) {
 }
 inline void storeHalves(uint16_t* p, Real a) {
 #if defined(__AVX512F__)
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(p),
-                        _mm512_cvtps_ph(a.batch, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+    _mm256_storeu_si256(
+        reinterpret_cast<__m256i*>(p),
+        _mm512_cvtps_ph(withinHalves(a).batch, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
 #elif defined(__F16C__)
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
-                     _mm256_cvtps_ph(a.batch, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
+                     _mm256_cvtps_ph(withinHalves(a).batch, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC));
 #else
     alignas(64) float lanes[laneCount];
     storeLanes(lanes, a);

@@ -12,7 +12,7 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
                            Surface receiver, Vec3 position, CameraConstants camera, int shift,
                            float coarseScale, int projection) {
     if (shift == 0) {
-        Vec4 same = fetch(coarseLight, pixel);
+        Vec4 same = fetchOffset(coarseLight, pixel, ivec2(0));
         return Vec3(same.x, same.y, same.z);
     }
     int halfTexel = 1 << (shift - 1);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Examines a G-buffer and its camera, and says in sentences what does not fit together: most trouble with
 // indirect light is an input that is not what the technique takes it for. For development, not for every
-// frame; see docs/input_check.md.
+// frame; see docs/input_check.md. Of the library rebound::input_check, which brings what is declared here;
+// the kernels are rebound::input_check_cpu's and rebound::input_check_shaders'.
 //
+//   inputCheckKernels() or inputCheckShaders()   for the device's options
 //   planInputCheck()     what to run on a device, as for any technique
 //   inputCheckInputs()   one frame's images and cameras
 //   examineInputs()      what the device wrote, as findings
@@ -12,14 +14,22 @@
 #include "rebound/device.hpp"
 #include "rebound/plan.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace rebound {
+
+struct Shader;
+
+// The kernels, for moreShaders of a GPU device's options, and for moreKernels of the CPU's.
+std::span<const Shader* const> inputCheckShaders();
+namespace cpu {
+enum class Isa;
+struct KernelEntry;
+std::span<const KernelEntry* const> inputCheckKernels(Isa);
+} // namespace cpu
 
 struct InputCheckSettings {
     Extent2D resolution;              // of the G-buffer, 1x1 to 16384x16384 [pixels]
@@ -119,13 +129,4 @@ const char* name(InputProblem);
 
 } // namespace rebound
 
-// In this order, which blank lines keep.
-#include "rebound/detail/input_check_statistics.inl"
-
-#include "rebound/detail/input_check_plan.inl"
-
-#include "rebound/detail/input_check_geometry.inl"
-
-#include "rebound/detail/input_check_findings.inl"
-
-#include "rebound/detail/input_check_light.inl"
+#include "rebound/detail/input_check.inl"

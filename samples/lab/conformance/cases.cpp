@@ -82,11 +82,18 @@ void oneHotPixel(GBuffer& g, Random&) {
     std::fill_n(g.frame.radiance.at(e.width / 2, e.height / 2), 3, runner::largestHalf);
 }
 
+void everyPixelAtTheEnd(GBuffer& g, Random&) {
+    std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), runner::largestHalf);
+}
+
+void byPoints(GBuffer& g, Random&) { g.settings.formFactor = FormFactor::pointToPoint; }
+
 void makeBlack(GBuffer& g, Random&) {
     std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f);
 }
 
-Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D extent) {
+// size: the scene's lengths are multiplied by it.
+Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D extent, float size = 1.0f) {
     auto scene = lab::loadScene(name);
     if (!scene) return scene.error();
     auto view = lab::findCamera(*scene, "");
@@ -99,16 +106,13 @@ Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D ext
     auto settings = screenIndirectPreset(preset, extent);
     if (!settings) return settings.error();
     const lab::Image outgoing = lab::outgoingRadiance(*frame);
-    return caseOf({*settings,
-                   {lab::cameraMatrices(*view, extent),
-                    frame->depth,
-                    frame->normal,
-                    outgoing,
-                    frame->albedo,
-                    outgoing,
-                    {},
-                    {}}},
-                  Precision::half);
+    for (float& z : frame->depth.data) z *= size;
+    Camera camera = lab::cameraMatrices(*view, extent);
+    camera.view[3] = glm::vec4(glm::vec3(camera.view[3]) * size, 1.0f);
+    camera.projection[3][2] *= size; // both planes
+    return caseOf(
+        {*settings, {camera, frame->depth, frame->normal, outgoing, frame->albedo, outgoing, {}, {}}},
+        Precision::half);
 }
 
 } // namespace
@@ -124,7 +128,11 @@ std::vector<NamedCase> randomCases(int count, uint64_t seed) {
 }
 
 std::vector<NamedCase> hardCases() {
-    GBufferOptions plain, sky, grazing, tiny, huge;
+    GBufferOptions plain, sky, grazing, tiny, huge, nearAndFar, corner;
+    nearAndFar.scale = 0.1;
+    nearAndFar.farRatio = 1e5;
+    nearAndFar.patches = 24;
+    corner.corner = true;
     sky.skyShare = 1.1;
     grazing.grazing = true;
     tiny.scale = 1e-4;
@@ -140,7 +148,10 @@ std::vector<NamedCase> hardCases() {
             hardCase("1e5 m", usual, huge),
             hardCase("not numbers", usual, plain, sprinkleNonNumbers),
             hardCase("black", usual, plain, makeBlack),
-            hardCase("one hot pixel", usual, plain, oneHotPixel)};
+            hardCase("one hot pixel", usual, plain, oneHotPixel),
+            hardCase("every pixel at 65504", usual, plain, everyPixelAtTheEnd),
+            hardCase("near over far of 1e5", usual, nearAndFar),
+            hardCase("point factor in a corner", usual, corner, byPoints)};
 }
 
 std::vector<NamedCase> sceneCases() {
@@ -150,6 +161,10 @@ std::vector<NamedCase> sceneCases() {
         for (const char* preset : {"quarter-64", "half-256-5"})
             cases.push_back(
                 {std::string(scene) + " " + preset, [=] { return sceneCase(scene, preset, extent); }});
+    // The room is 5.5 m wide.
+    for (const auto& [name, size] : {std::pair{"0.1 m", 0.1f / 5.5f}, std::pair{"10 km", 1e4f / 5.5f}})
+        cases.push_back({std::string("builtin:cornell quarter-64, ") + name,
+                         [size = size] { return sceneCase("builtin:cornell", "quarter-64", extent, size); }});
     return cases;
 }
 

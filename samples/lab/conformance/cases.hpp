@@ -2,6 +2,7 @@
 // What backends are held against each other with: plans and inputs, every one made anew from its name and seed.
 #pragma once
 
+#include "lab/conformance/tolerances.hpp"
 #include "lab/runner/runner.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
@@ -16,7 +17,9 @@ struct Case {
     Plan plan;
     runner::PlanInputs inputs;
     runner::Precision precision = runner::Precision::half;
-    float largestRadiance = 0; // of the inputs, finite
+    std::vector<ImageTolerance> tolerances; // by resource of the plan
+    std::vector<runner::PlanInputs> later =
+        {}; // of the frames behind the first: what plans with history are run for
 };
 
 struct NamedCase {

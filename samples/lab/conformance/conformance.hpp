@@ -33,8 +33,7 @@ struct FrameRow {
     std::string worstCase;
     size_t disagreements = 0; // above allowedFrameDifference
 };
-// Half-precision transients alone differ from the CPU's single-precision ones by 1e-3, and the few texels whose reduction
-// decides otherwise by more: measured up to 0.02 on pictures of some hundred pixels.
+// The few texels whose reduction decides otherwise: measured up to 0.02 on pictures of some hundred pixels.
 inline constexpr double allowedFrameDifference = 0.05;
 
 struct Report {
@@ -54,8 +53,9 @@ struct Report {
     bool agrees() const;
 };
 
-// Runs every case on the scalar CPU and on each contender. progress: called with the share that is done, 0 to 1.
+// Runs every case, all of its frames, on the scalar CPU and on each contender. progress: called with the share that is done,
+// 0 to 1. yardstick: which kernels the scalar CPU has beside the techniques' own; what else it says does not matter.
 Result<Report> run(const std::vector<NamedCase>&, std::vector<Contender>&,
-                   const std::function<void(double)>& progress = {});
+                   const std::function<void(double)>& progress = {}, runner::BackendChoice yardstick = {});
 
 } // namespace rebound::conformance

@@ -2,15 +2,12 @@
 #include "lab/conformance/difference.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace rebound::conformance {
 namespace {
-
-bool isSurface(const Resource& r) { return r.format == Format::rgba32f; }
-bool isReduction(const std::string& kernel) {
-    return kernel == "screen_indirect/reduce" || kernel == "screen_indirect/prepare_half";
-}
 
 // Spacing of a format's values at a magnitude.
 double lastPlace(Format format, double magnitude) {
@@ -24,12 +21,15 @@ double lengthOf(const float* texel) {
 }
 
 // What a channel's difference is held against: a vector's components against its length.
-double magnitudeOf(const Resource& r, const float* texel, int channel) {
-    return isSurface(r) && channel < 3 ? lengthOf(texel) : std::abs(double(texel[channel]));
+double magnitudeOf(const ImageTolerance& t, const float* texel, int channel) {
+    return t.isVector && channel < 3 ? lengthOf(texel) : std::abs(double(texel[channel]));
 }
 
-// Two values that are equal, or no numbers both.
-bool isSame(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+// Two values that are equal, or no numbers both; of integers, the same bits.
+bool isSame(Format format, float a, float b) {
+    if (isInteger(format)) return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
 
 double excess(const Tolerance& t, double difference, double magnitude) {
     if (!std::isfinite(difference)) return INFINITY;
@@ -38,9 +38,7 @@ double excess(const Tolerance& t, double difference, double magnitude) {
 }
 
 struct Comparison {
-    const std::string& kernel;
     const PassImages& images;
-    float largestRadiance;
 
     // How far beyond its tolerance the worst channel of a texel lies; at most 1 where all agree.
     double measure(int x, int y, Difference& d) const {
@@ -48,9 +46,9 @@ struct Comparison {
         const float* b = images.value->at(x, y);
         double worst = 0.0;
         for (int c = 0; c < images.reference->channels; ++c) {
-            if (isSame(a[c], b[c])) continue;
-            const Tolerance tolerance = toleranceOf(kernel, *images.resource, c, largestRadiance);
-            const double magnitude = magnitudeOf(*images.resource, a, c);
+            if (isSame(images.format, a[c], b[c])) continue;
+            const Tolerance& tolerance = images.tolerance->channels[size_t(c)];
+            const double magnitude = magnitudeOf(*images.tolerance, a, c);
             double difference = std::abs(double(a[c]) - double(b[c]));
             if (!std::isfinite(difference)) difference = INFINITY;
             const double over = excess(tolerance, difference, magnitude);
@@ -72,44 +70,20 @@ struct Comparison {
         d.maximumAbsolute = std::max(d.maximumAbsolute, difference);
         if (magnitude <= tolerance.absolute || !std::isfinite(magnitude)) return;
         d.maximumRelative = std::max(d.maximumRelative, difference / magnitude);
-        d.maximumUlp = std::max(d.maximumUlp, difference / lastPlace(images.resource->format, magnitude));
+        d.maximumUlp = std::max(d.maximumUlp, difference / lastPlace(images.format, magnitude));
     }
 
-    // A coarser texel takes the light and area of all four finer ones whichever lends it its place: where the areas agree
-    // and place or normal does not, another one was chosen.
+    // Where the vector's length agrees and another value does not, as ImageTolerance says.
     bool isDecision(int x, int y) const {
-        if (!isReduction(kernel) || !isSurface(*images.resource)) return false;
+        if (!images.tolerance->isChosen) return false;
         const double a = lengthOf(images.reference->at(x, y)), b = lengthOf(images.value->at(x, y));
-        const Tolerance tolerance = toleranceOf(kernel, *images.resource, 0, largestRadiance);
-        return a > 0.0 && std::abs(a - b) <= tolerance.relative * a;
+        return a > 0.0 && std::abs(a - b) <= images.tolerance->channels[0].relative * a;
     }
 };
 
 } // namespace
 
-Tolerance toleranceOf(const std::string& kernel, const Resource& r, int channel, float largestRadiance) {
-    constexpr double halfUlp = 1.0 / 1024.0, smallestHalf = 6.2e-5;
-    if (isSurface(r))
-        return channel < 3 ? Tolerance{2e-5, 0.0,
-                                       "square roots and divisions to a few units in the last place, Newton "
-                                       "steps to 5e-7, four areas summed"}
-                           : Tolerance{2e-6, 0.0, "a division, in each projection"};
-    if (r.name.starts_with("light") && channel == 3)
-        return {halfUlp, 2e-5, "1 is taken off a ratio of distances near it, which leaves its rounding"};
-    if (kernel == "screen_indirect/gather")
-        return {2.0 * halfUlp, smallestHalf + 2e-6 * double(largestRadiance),
-                "the half's rounding, which may differ by one; where surfaces lie in one plane the cosine is "
-                "what rounding "
-                "leaves of a distance, 1e-6, times the brightest sender; halves below the smallest normal "
-                "one may be 0"};
-    return {2.0 * halfUlp, smallestHalf,
-            "the half's rounding, up or to zero, on top of weights that agree to 1e-4; halves below the "
-            "smallest normal "
-            "one may be 0"};
-}
-
-std::vector<Difference> compare(const std::string& kernel, const std::vector<PassImages>& images,
-                                float largestRadiance) {
+std::vector<Difference> compare(const std::vector<PassImages>& images) {
     std::vector<Difference> differences(images.size());
     if (images.empty()) return differences;
     const Extent2D extent = images[0].reference->extent();
@@ -119,12 +93,12 @@ std::vector<Difference> compare(const std::string& kernel, const std::vector<Pas
             bool decided = false;
             for (const PassImages& i : images) {
                 Difference unused;
-                const Comparison comparison{kernel, i, largestRadiance};
+                const Comparison comparison{i};
                 decided = decided || (comparison.measure(x, y, unused) > 1.0 && comparison.isDecision(x, y));
             }
             for (size_t i = 0; i < images.size(); ++i) {
                 if (decided) differences[i].decisions += 1;
-                else if (Comparison{kernel, images[i], largestRadiance}.measure(x, y, differences[i]) > 1.0)
+                else if (Comparison{images[i]}.measure(x, y, differences[i]) > 1.0)
                     differences[i].beyond += 1;
             }
         }

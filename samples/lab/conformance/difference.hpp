@@ -2,24 +2,14 @@
 // How far two backends' images of one pass lie apart.
 #pragma once
 
+#include "lab/conformance/tolerances.hpp"
 #include "lab/images/image.hpp"
 #include "rebound/plan.hpp"
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace rebound::conformance {
-
-// A channel agrees where |a - b| <= relative * magnitude + absolute.
-struct Tolerance {
-    double relative = 0;
-    double absolute = 0;
-    const char* reason = "";
-};
-
-// largestRadiance: of the case's inputs. Channels of a resource that a pass of that kernel writes.
-Tolerance toleranceOf(const std::string& kernel, const Resource&, int channel, float largestRadiance);
 
 // The share of a pass's texels that may rest on another decision: which of four texels lends a coarser one its place.
 // Where a plane is seen at a degree, candidates score alike to within rounding, in one texel of 50 measured.
@@ -39,14 +29,14 @@ struct Difference {
     bool agrees() const { return beyond == 0 && double(decisions) <= allowedDecisions * double(texels) + 1; }
 };
 
-// Images that a pass of that kernel wrote, in the order of its bindings: a decision shows in all of them.
+// Images of one size that one pass wrote, in the order of its bindings: a decision shows in all of them.
 struct PassImages {
-    const Resource* resource;
+    Format format;
+    const ImageTolerance* tolerance;
     const lab::Image* reference;
     const lab::Image* value;
 };
-std::vector<Difference> compare(const std::string& kernel, const std::vector<PassImages>&,
-                                float largestRadiance);
+std::vector<Difference> compare(const std::vector<PassImages>&);
 
 // Keeps the larger figures of both.
 void merge(Difference& into, const Difference&);

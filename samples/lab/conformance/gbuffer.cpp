@@ -60,6 +60,24 @@ Patch makePatch(const View& view, const GBufferOptions& options, Random& random)
     return patch;
 }
 
+// Two walls and a floor that meet before the eye, wherever the planes of a view lie.
+std::vector<Patch> makeCorner(const View& view) {
+    std::vector<Patch> walls;
+    for (const glm::dvec3 normal :
+         {glm::dvec3(0.8, 0.0, 0.6), glm::dvec3(-0.6, 0.0, 0.8), glm::dvec3(0.0, 0.8, 0.6)})
+        walls.push_back({{}, glm::dvec3(0.0, -0.1, -4.0) * view.scale, normal, glm::dvec3(1e3), false});
+    return walls;
+}
+
+const Patch& nearestWall(const View& view, const std::vector<Patch>& walls, glm::dvec2 screen) {
+    const auto distance = [&](const Patch& wall) {
+        const double d = view.meet(screen, wall);
+        return d > 0.0 ? d : std::numeric_limits<double>::infinity();
+    };
+    return *std::min_element(walls.begin(), walls.end(),
+                             [&](const Patch& a, const Patch& b) { return distance(a) < distance(b); });
+}
+
 const Patch& nearestPatch(const std::vector<Patch>& patches, glm::dvec2 screen) {
     return *std::min_element(patches.begin(), patches.end(), [&](const Patch& a, const Patch& b) {
         return glm::distance(a.site, screen) < glm::distance(b.site, screen);
@@ -92,7 +110,8 @@ float emptyDepth(const GBufferConventions& c) {
 GBuffer makeGBuffer(const ScreenIndirectSettings& settings, const GBufferOptions& options, Random& random) {
     const GBufferConventions& c = settings.conventions;
     const Extent2D extent = settings.resolution;
-    const View view = viewOf(c, options.scale);
+    View view = viewOf(c, options.scale);
+    view.lens.farDistance *= options.farRatio;
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), unitVector(random));
     ScreenIndirectFrame<lab::Image> g;
     g.depth = lab::Image(extent, 1, emptyDepth(c));
@@ -100,13 +119,18 @@ GBuffer makeGBuffer(const ScreenIndirectSettings& settings, const GBufferOptions
     g.camera = {lab::viewOf(c, glm::mat4(turn)), lab::projectionOf(c, view.lens)};
     const glm::dmat3 toWorld = glm::inverse(glm::dmat3(turn));
     std::vector<Patch> patches;
-    for (int i = 0; i < options.patches; ++i) patches.push_back(makePatch(view, options, random));
+    for (int i = 0; i < options.patches; ++i) {
+        patches.push_back(makePatch(view, options, random));
+        if (i % 2 == 1) patches.back().point *= options.farRatio;
+    }
+    if (options.corner) patches = makeCorner(view);
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
             store(g.albedo, x, y, {random.unit(), random.unit(), random.unit()});
             store(g.lit, x, y, glm::dvec3(random.betweenDecades(1e-3, 1e2)));
             const glm::dvec2 screen((x + 0.5) / extent.width, (y + 0.5) / extent.height);
-            const Patch& patch = nearestPatch(patches, screen);
+            const Patch& patch =
+                options.corner ? nearestWall(view, patches, screen) : nearestPatch(patches, screen);
             const double distance = view.meet(screen, patch);
             if (patch.sky || !(distance > view.lens.nearDistance && distance < view.lens.farDistance))
                 continue;
@@ -122,10 +146,11 @@ Result<Case> caseOf(const GBuffer& g, runner::Precision precision) {
     if (!inputs) return inputs.error();
     auto plan = planScreenIndirect(g.settings);
     if (!plan) return plan.error();
-    Case c{*std::move(plan), *std::move(inputs), precision, 0};
+    float largestRadiance = 0;
     for (float value : g.frame.radiance.data)
-        if (std::isfinite(value)) c.largestRadiance = std::max(c.largestRadiance, value);
-    return c;
+        if (std::isfinite(value)) largestRadiance = std::max(largestRadiance, value);
+    auto tolerances = screenIndirectTolerances(*plan, largestRadiance);
+    return Case{*std::move(plan), *std::move(inputs), precision, std::move(tolerances)};
 }
 
 } // namespace rebound::conformance

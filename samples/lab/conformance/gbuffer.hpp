@@ -21,6 +21,8 @@ struct GBufferOptions {
     double skyShare = 0.15;     // of the patches
     bool grazing = false;       // planes almost along the rays
     double radianceDecades = 3; // from 10^-d to 10^d
+    double farRatio = 1;        // every other patch is so many times as far away
+    bool corner = false;        // a room's: patches are its walls, each seen where it is the nearest
 };
 
 // settings: the resolution and the conventions are taken from it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/runner/host_image.hpp"
 #include "lab/runner/inspection.hpp"
+#include "rebound/techniques/input_check.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -143,6 +144,7 @@ Result<std::unique_ptr<Backend>> createCpuBackend(const BackendChoice& choice) {
     options.threads = choice.threads;
     options.timings = true;
     options.moreKernels = choice.moreKernels;
+    options.moreKernels.push_back(cpu::inputCheckKernels);
     auto device = cpu::Device::create(options);
     if (!device) return device.error();
     return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*std::move(device)));

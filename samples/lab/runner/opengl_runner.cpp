@@ -5,6 +5,7 @@
 #include "lab/host/opengl_texture.hpp"
 #include "lab/runner/inspection.hpp"
 #include "rebound/opengl/device.hpp"
+#include "rebound/techniques/input_check.hpp"
 
 namespace rebound::runner {
 namespace {
@@ -174,6 +175,7 @@ Result<std::unique_ptr<Backend>> createOpenGLBackend(const BackendChoice& choice
     options.loader = OpenGLContext::functionNamed;
     options.timings = true;
     options.moreShaders = choice.moreShaders;
+    options.moreShaders.push_back(inputCheckShaders());
     auto device = opengl::Device::create(options);
     if (!device) return Error{device.error().code, "OpenGL: " + device.error().message};
     return std::unique_ptr<Backend>(std::make_unique<OpenGLBackend>(*std::move(context), *std::move(device)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/host/vulkan_image.hpp"
 #include "lab/runner/inspection.hpp"
+#include "rebound/techniques/input_check.hpp"
 #include "rebound/vulkan/device.hpp"
 
 #include <cstring>
@@ -286,6 +287,7 @@ Result<std::unique_ptr<Backend>> createVulkanBackend(const BackendChoice& choice
     options.timings = true;
     options.debugUtils = context->hasDebugUtils();
     options.moreShaders = choice.moreShaders;
+    options.moreShaders.push_back(inputCheckShaders());
     auto device = vulkan::Device::create(options);
     if (!device) return device.error();
     return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(*std::move(context), *std::move(device)));

@@ -5,14 +5,14 @@
 // One way to read an image.
 RB_KERNEL(Access)
 RB_FEATURE(0, mode, accessCount)
-RB_TEXTURE(0, source)
+RB_TEXTURE_OF_ANY_SIZE(0, source)
 RB_INPUT(1, host)
 RB_OUTPUT(2, rgba32f, result)
 RB_CONSTANTS(3, AccessConstants, k)
 RB_MAIN(pixel, k.extent)
     ivec2 offset = ivec2(k.offset.x, k.offset.y);
     Vec4 r = Vec4(0.0f);
-    if (mode == accessFetch) r = fetch(source, pixel);
+    if (mode == accessFetch) r = fetchOffset(source, pixel, ivec2(0));
     if (mode == accessOffset) r = fetchOffset(source, pixel, offset);
     if (mode == accessMinified) r = fetchMinified(source, pixel, offset);
     if (mode == accessMagnified) r = fetchMagnified(source, pixel, ivec2(k.extent.w), k.extent.z, offset);

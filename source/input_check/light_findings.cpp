@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Definitions of input_check.hpp: findings on albedo, light and motion. Thresholds and their reasons:
-// docs/input_check.md.
+// Findings on albedo, light and motion. Thresholds and their reasons: docs/input_check.md.
+#include "examiner.hpp"
 
 namespace rebound {
 namespace detail {
@@ -12,7 +12,7 @@ constexpr double motionAgreeing = 0.7;  // of moving surfaces; the rest may be t
 constexpr double motionExplained = 0.5; // of moving surfaces that another reading must explain
 constexpr double motionGain = 0.3;      // and by how much more than what is stated
 
-inline void InputExaminer::examineAlbedo() {
+void InputExaminer::examineAlbedo() {
     if (!settings.albedo) return;
     const auto share = [&](int i) { return at(StatisticRow::albedo, i) / surfaces(); };
     if (share(AlbedoStatistic::notFinite) > 0.0)
@@ -35,8 +35,8 @@ inline void InputExaminer::examineAlbedo() {
                              ", the image was cleared and never written");
 }
 
-inline void InputExaminer::examineLightValues(StatisticRow r, const char* image, InputProblem notFinite,
-                                              InputProblem negative, InputProblem black) {
+void InputExaminer::examineLightValues(StatisticRow r, const char* image, InputProblem notFinite,
+                                       InputProblem negative, InputProblem black) {
     const double total = std::max(at(r, LightStatistic::surfaces), 1.0);
     const auto share = [&](int i) { return at(r, i) / total; };
     if (share(LightStatistic::notFinite) > 0.0)
@@ -56,7 +56,7 @@ inline void InputExaminer::examineLightValues(StatisticRow r, const char* image,
                 " of the surfaces; unless the scene is dark, the image was cleared and never written");
 }
 
-inline void InputExaminer::examineLight() {
+void InputExaminer::examineLight() {
     if (settings.lit)
         examineLightValues(StatisticRow::lit, "lit", InputProblem::litNotFinite, InputProblem::litNegative,
                            InputProblem::litBlack);
@@ -87,7 +87,7 @@ inline void InputExaminer::examineLight() {
 }
 
 // Radiance of a diffuse surface is in proportion to its albedo.
-inline void InputExaminer::examineAlbedoInRadiance() {
+void InputExaminer::examineAlbedoInRadiance() {
     const auto votes = [&](StatisticRow r, int i) {
         return at(r, i) / std::max(at(r, LightStatistic::edges), 1.0);
     };
@@ -122,7 +122,7 @@ inline void InputExaminer::examineAlbedoInRadiance() {
                 (settings.emission ? "" : ", unless these surfaces emit light (settings.emission)"));
 }
 
-inline void InputExaminer::examineMotion() {
+void InputExaminer::examineMotion() {
     if (!settings.motion) return;
     const auto r = [&](int i) { return at(StatisticRow::motion, i); };
     if (r(MotionStatistic::notFinite) > 0.0)
@@ -157,7 +157,7 @@ inline void InputExaminer::examineMotion() {
 }
 
 // Readings: three units, the stated first, each as it is, turned round, with y turned, with x turned.
-inline void InputExaminer::nameMotion(int reading, double stated, double share) {
+void InputExaminer::nameMotion(int reading, double stated, double share) {
     constexpr const char* unitNames[] = {"pixels", "textureCoordinates", "normalizedDevice"};
     constexpr const char* signNames[] = {"as it is", "with its sign changed", "with y's sign changed",
                                          "with x's sign changed"};
@@ -177,8 +177,8 @@ inline void InputExaminer::nameMotion(int reading, double stated, double share) 
 
 } // namespace detail
 
-inline std::vector<InputFinding> examineInputs(const InputCheckSettings& settings, const Camera& camera,
-                                               const InputStatistics& statistics) {
+std::vector<InputFinding> examineInputs(const InputCheckSettings& settings, const Camera& camera,
+                                        const InputStatistics& statistics) {
     return detail::InputExaminer(settings, camera, statistics).examine();
 }
 

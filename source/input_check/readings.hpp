@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Definitions of input_check.hpp: ways to read depth, normals and motion, as stated and as they may have been
-// meant.
+// Ways to read depth, normals and motion, as stated and as they may have been meant.
+#pragma once
 
-namespace rebound {
-namespace detail {
+#include "rebound/detail/input_check_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rebound::detail {
+
+#include "rebound/techniques/input_check_constants.h"
 
 inline double forwardSign(const GBufferConventions& c) {
     return c.handedness == Handedness::right ? -1.0 : 1.0;
@@ -249,5 +258,4 @@ inline GeometryReading explain(const std::vector<GeometryReading>& readings) {
     return best;
 }
 
-} // namespace detail
-} // namespace rebound
+} // namespace rebound::detail

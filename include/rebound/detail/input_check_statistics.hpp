@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the texels of input_check's statistics mean: rows of 16 values, written by shaders/input_check.
+#pragma once
 
-namespace rebound {
-namespace detail {
+#include "rebound/techniques/input_check.hpp"
+
+namespace rebound::detail {
 
 enum class StatisticRow {
     values,
@@ -75,5 +77,4 @@ struct MotionStatistic {
     enum Index { notFinite, moving, still, stillButMoved, agreements }; // twelve agreements
 };
 
-} // namespace detail
-} // namespace rebound
+} // namespace rebound::detail

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Definitions of input_check.hpp: the plan and a frame's inputs.
+// The plan of the input check, and a frame's constants.
+#include "readings.hpp"
+
+#include <cstring>
+#include <string_view>
+#include <utility>
 
 namespace rebound {
 namespace detail {
-
-#include "rebound/techniques/input_check_constants.h"
+namespace {
 
 // Builds the plan: each row of statistics is measured by a grid of texels that sum many pixels each, folded
 // and totalled.
@@ -152,51 +156,41 @@ private:
 
 template <class T>
 NamedConstants namedConstants(std::string_view name, const T& constants) {
-    const std::byte* bytes = reinterpret_cast<const std::byte*>(&constants);
-    return {std::string(name), {bytes, bytes + sizeof(T)}};
+    NamedConstants named{std::string(name), std::vector<std::byte>(sizeof(T))};
+    std::memcpy(named.data.data(), &constants, sizeof(T));
+    return named;
 }
 
-inline PlaneConstants planeConstants(const Camera&, const GBufferConventions&);
-inline std::array<DepthReading, size_t(depthReadingCount)>
-depthReadings(const Camera&, const GBufferConventions&, const CameraConstants& stated);
-inline MotionConstants motionConstants(const InputCheckSettings&, const Camera&, const Camera& previous);
-inline constexpr std::array<std::string_view, size_t(depthReadingCount)> depthReadingNames{
+constexpr std::array<std::string_view, size_t(depthReadingCount)> depthReadingNames{
     "depth reading 0", "depth reading 1", "depth reading 2", "depth reading 3", "depth reading 4"};
+
+} // namespace
+
+Result<std::vector<NamedConstants>> inputCheckConstants(const InputCheckSettings& settings,
+                                                        const Camera& camera, const Camera& previousCamera) {
+    const auto stated = cameraConstants(camera, settings.conventions, settings.resolution);
+    if (!stated) return stated.error();
+    std::vector<NamedConstants> constants = {
+        namedConstants("camera", *stated),
+        namedConstants("planes", planeConstants(camera, settings.conventions))};
+    const auto readings = depthReadings(camera, settings.conventions, *stated);
+    for (size_t i = 0; i < readings.size(); ++i)
+        constants.push_back(namedConstants(depthReadingNames[i], readings[i]));
+    if (!settings.motion) return constants;
+    if (const auto previous = cameraConstants(previousCamera, settings.conventions, settings.resolution);
+        !previous)
+        return invalidArgument("previousCamera: " + previous.error().message);
+    constants.push_back(namedConstants("cameras", motionConstants(settings, camera, previousCamera)));
+    return constants;
+}
 
 } // namespace detail
 
-inline Result<Plan> planInputCheck(const InputCheckSettings& settings) {
+Result<Plan> planInputCheck(const InputCheckSettings& settings) {
     if (!detail::isValidExtent(settings.resolution))
         return invalidArgument("settings.resolution is " + detail::toText(settings.resolution) + "; 1x1 to " +
                                detail::toText({maximumExtent, maximumExtent}) + " was expected");
     return detail::InputCheckPlanner(settings).build();
-}
-
-template <class Image>
-Result<FrameInputs<Image>> inputCheckInputs(const InputCheckSettings& settings,
-                                            const InputCheckFrame<Image>& frame) {
-    auto camera = cameraConstants(frame.camera, settings.conventions, settings.resolution);
-    if (!camera) return camera.error();
-    FrameInputs<Image> inputs;
-    inputs.images = {{"depth", frame.depth}, {"normal", frame.normal}, {"statistics", frame.statistics}};
-    if (settings.albedo) inputs.images.push_back({"albedo", frame.albedo});
-    if (settings.radiance) inputs.images.push_back({"radiance", frame.radiance});
-    if (settings.lit) inputs.images.push_back({"lit", frame.lit});
-    if (settings.emission) inputs.images.push_back({"emission", frame.emission});
-    inputs.constants.push_back(detail::namedConstants("camera", *camera));
-    inputs.constants.push_back(
-        detail::namedConstants("planes", detail::planeConstants(frame.camera, settings.conventions)));
-    const auto readings = detail::depthReadings(frame.camera, settings.conventions, *camera);
-    for (size_t i = 0; i < readings.size(); ++i)
-        inputs.constants.push_back(detail::namedConstants(detail::depthReadingNames[i], readings[i]));
-    if (settings.motion) {
-        auto previous = cameraConstants(frame.previousCamera, settings.conventions, settings.resolution);
-        if (!previous) return invalidArgument("previousCamera: " + previous.error().message);
-        inputs.images.push_back({"motion", frame.motion});
-        inputs.constants.push_back(detail::namedConstants(
-            "cameras", detail::motionConstants(settings, frame.camera, frame.previousCamera)));
-    }
-    return inputs;
 }
 
 } // namespace rebound
