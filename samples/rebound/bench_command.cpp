@@ -25,6 +25,8 @@ struct BenchOptions {
     bool json = false;
 };
 
+constexpr size_t mostRuns = 64; // all of them are held at once
+
 using measure::Measurement;
 using measure::Series;
 
@@ -41,17 +43,17 @@ Json toJson(Json json, const Measurement& measurement, const BenchOptions& optio
     return json;
 }
 
-// A run of one backend.
+// One configuration of the technique on one backend.
 struct Run {
+    std::string name; // among the runs
     runner::BackendInfo backend;
-    ScreenIndirectSettings settings;
     runner::Precision precision;
-    MemoryUse memory;
+    std::unique_ptr<measure::FramePipeline> pipeline;
     Measurement measurement;
 };
 
-// Two columns a run. The passes are those of one plan, but a backend that cannot tell has none.
-std::string measurementTable(const std::vector<Run>& runs) {
+// Two columns a run. Precondition: all are of one plan; a backend that cannot tell has no passes.
+std::string passTable(const std::vector<Run>& runs) {
     std::vector<std::string> headings = {"pass"};
     std::vector<TableRow> rows;
     for (const Run& run : runs)
@@ -73,69 +75,131 @@ std::string measurementTable(const std::vector<Run>& runs) {
     return toTable(headings, rows);
 }
 
-Result<Run> benchOn(Preparation& preparation, const SourcedFrame& source,
-                    const ScreenIndirectSettings& settings, const BenchOptions& options) {
-    auto pipeline =
-        measure::FramePipeline::create(source.frame, settings, *preparation.backend, preparation.precision);
-    if (!pipeline) return measure::spelled(pipeline.error(), measure::Spelling::options);
-    ProgressLine line("measuring");
-    auto measurement = measure::measureFrames(
-        *pipeline, {options.warmUp, options.frames, [&line](double share) { line.update(share); }});
-    if (!measurement) return measurement.error();
-    return Run{preparation.backend->info(), pipeline->settings(), preparation.precision,
-               pipeline->memoryUse(), *std::move(measurement)};
+std::string frameTable(const std::vector<Run>& runs) {
+    std::vector<TableRow> rows;
+    for (const Run& run : runs)
+        rows.push_back({run.name,
+                        {run.measurement.frame.median(), run.measurement.frame.minimum(),
+                         measure::ratioOf(run.measurement, runs[0].measurement)}});
+    return toTable({"frame", "median [ms]", "minimum [ms]", "to the first"}, rows, LastRow::together);
 }
 
-void print(const SourcedFrame& source, const std::vector<Run>& runs, const BenchOptions& options) {
-    const std::string& preset = options.technique.preset;
-    if (options.json) {
-        std::vector<Json> all;
-        for (const Run& run : runs)
-            all.push_back(
-                toJson(runToJson(source, run.settings, preset, run.backend, run.precision, run.memory),
-                       run.measurement, options));
-        const Json json = all.size() == 1 ? all[0] : Json{{"runs", all}};
-        std::cout << toText(json);
-        return;
+// Every combination of what stands between commas.
+std::vector<TechniqueOptions> configurationsOf(const TechniqueOptions& options) {
+    std::vector<TechniqueOptions> all = {options};
+    for (const auto& [option, text] : options.draft) {
+        std::vector<std::string> values = splitList(text);
+        if (values.empty()) values = {text}; // to be refused by the technique
+        std::vector<TechniqueOptions> combined;
+        for (const TechniqueOptions& one : all)
+            for (const std::string& value : values) {
+                combined.push_back(one);
+                combined.back().draft[option] = value;
+            }
+        all = std::move(combined);
+        if (all.size() > mostRuns) break;
     }
+    return all;
+}
+
+Result<std::vector<Run>> prepareRuns(const std::vector<TechniqueOptions>& configurations,
+                                     std::vector<Preparation>& preparations, const SourcedFrame& source) {
+    std::vector<Run> runs;
+    for (const TechniqueOptions& options : configurations)
+        for (Preparation& preparation : preparations) {
+            auto configured = configure(options, techniques::viewOf(source.frame));
+            if (!configured) return configured.error();
+            auto pipeline = measure::FramePipeline::create(source.frame, *std::move(configured),
+                                                           *preparation.backend, preparation.precision);
+            if (!pipeline) return pipeline.error();
+            const runner::BackendInfo backend = preparation.backend->info();
+            std::string name = configurations.size() > 1 ? pipeline->technique().name : "";
+            if (preparations.size() > 1) name += (name.empty() ? "" : ", ") + backend.backend;
+            runs.push_back({name,
+                            backend,
+                            preparation.precision,
+                            std::make_unique<measure::FramePipeline>(*std::move(pipeline)),
+                            {}});
+        }
+    return runs;
+}
+
+Result<> measureAll(std::vector<Run>& runs, const BenchOptions& options) {
+    std::vector<measure::FramePipeline*> pipelines;
+    for (const Run& run : runs) pipelines.push_back(run.pipeline.get());
+    ProgressLine line("measuring");
+    auto measurements = measure::measureInTurns(
+        pipelines, {options.warmUp, options.frames, [&line](double share) { line.update(share); }});
+    if (!measurements) return measurements.error();
+    for (size_t i = 0; i < runs.size(); ++i) runs[i].measurement = std::move((*measurements)[i]);
+    return {};
+}
+
+Json toJson(const SourcedFrame& source, const std::vector<Run>& runs, const BenchOptions& options) {
+    std::vector<Json> all;
+    for (const Run& run : runs) {
+        all.push_back(toJson(runToJson(source, run.pipeline->technique(), run.backend, run.precision,
+                                       run.pipeline->memoryUse()),
+                             run.measurement, options));
+        if (runs.size() > 1) {
+            all.back()["name"] = run.name;
+            all.back()["ratio"] = measure::ratioOf(run.measurement, runs[0].measurement);
+        }
+    }
+    return all.size() == 1 ? all[0] : Json{{"runs", all}};
+}
+
+void print(const SourcedFrame& source, const std::vector<Run>& runs, bool hasOnePlan, int frames,
+           int warmUp) {
     for (const Run& run : runs)
-        std::cout << describeRun(source, run.settings, preset, run.backend, run.precision);
-    std::cout << options.frames << " frames after " << options.warmUp << " to warm up\n\n"
-              << measurementTable(runs);
+        std::cout << describeRun(source, run.pipeline->technique(), run.backend, run.precision);
+    std::cout << frames << " frames after " << warmUp << " to warm up"
+              << (runs.size() > 1 ? ", a frame of each run after the other" : "") << "\n\n";
+    if (hasOnePlan) std::cout << passTable(runs) << (runs.size() > 1 ? "\n" : "");
+    if (runs.size() > 1) std::cout << frameTable(runs);
     for (const Run& run : runs)
         if (const Series& recording = run.measurement.recording; !recording.milliseconds.empty())
             std::cout << "\nrecording a frame takes " << run.backend.backend << "'s host "
                       << std::lround(recording.median() * 1000.0) << " microseconds, at least "
                       << std::lround(recording.minimum() * 1000.0);
     for (const Run& run : runs)
-        std::cout << "\nmemory " << (runs.size() > 1 ? "of " + run.backend.backend + " " : "")
-                  << toText(run.memory);
+        std::cout << "\nmemory " << (run.name.empty() ? "" : "of " + run.name + " ")
+                  << toText(run.pipeline->memoryUse());
     std::cout << '\n';
 }
 
-Result<> bench(const BenchOptions& options) {
+Result<std::vector<Preparation>> prepareBackends(const std::vector<TechniqueOptions>& configurations,
+                                                 const DeviceChoice& device) {
     std::vector<Preparation> preparations;
-    for (const std::string& backend : splitList(options.device.backend)) {
-        DeviceChoice choice = options.device;
+    for (const std::string& backend : splitList(device.backend)) {
+        DeviceChoice choice = device;
         choice.backend = backend;
-        if (backend == "cpu" && options.device.backend != "cpu") choice.device.clear(); // it means the others
-        auto preparation = prepare(options.technique, choice);
+        if (backend == "cpu" && device.backend != "cpu") choice.device.clear(); // it means the others
+        auto preparation = prepare(configurations[0], choice);
         if (!preparation) return preparation.error();
         preparations.push_back(*std::move(preparation));
     }
     if (preparations.empty())
         return invalidArgument("--backend is empty; some of cpu, vulkan and opengl were expected");
-    const auto source = obtainFrame(options.source, preparations[0].extent, options.device.threads);
+    for (const TechniqueOptions& configuration : configurations) // all, before anything long begins
+        if (auto valid = configure(configuration, {preparations[0].extent}); !valid) return valid.error();
+    return preparations;
+}
+
+Result<> bench(const BenchOptions& options) {
+    const std::vector<TechniqueOptions> configurations = configurationsOf(options.technique);
+    if (configurations.size() > mostRuns)
+        return invalidArgument("the options' lists have more than " + std::to_string(mostRuns) +
+                               " combinations; fewer were expected");
+    auto preparations = prepareBackends(configurations, options.device);
+    if (!preparations) return preparations.error();
+    const auto source = obtainFrame(options.source, preparations->front().extent, options.device.threads);
     if (!source) return source.error();
-    const auto settings = settingsOf(options.technique, source->frame.depth.extent());
-    if (!settings) return settings.error();
-    std::vector<Run> runs;
-    for (Preparation& preparation : preparations) {
-        auto run = benchOn(preparation, *source, *settings, options);
-        if (!run) return run.error();
-        runs.push_back(*std::move(run));
-    }
-    print(*source, runs, options);
+    auto runs = prepareRuns(configurations, *preparations, *source);
+    if (!runs) return runs.error();
+    if (auto measured = measureAll(*runs, options); !measured) return measured;
+    if (options.json) std::cout << toText(toJson(*source, *runs, options));
+    else print(*source, *runs, configurations.size() == 1, options.frames, options.warmUp);
     return {};
 }
 
@@ -164,12 +228,15 @@ Command addBenchCommand(CLI::App& program) {
     app->footer(
         "Prints the median and the minimum of every pass and of the whole frame. Loading the scene and\n"
         "rendering its G-buffer are not in them; reading and writing the host's images is.\n"
+        "Options of the technique may hold several values with commas between them: every combination is\n"
+        "a run. A frame of each run follows one of the other, and each is told as a ratio to the first.\n"
         "\n"
         "Examples:\n"
         "  rebound bench\n"
         "  rebound bench --size 1920x1080 --preset half-64 --threads 1 --isa scalar --frames 20\n"
         "  rebound bench --json > quarter-64.json\n"
-        "  rebound bench --backend cpu,vulkan,opengl");
+        "  rebound bench --backend cpu,vulkan,opengl\n"
+        "  rebound bench --preset quarter-64,half-64 --smooth on,off");
     return [options] { return exitCodeOf(bench(*options)); };
 }
 

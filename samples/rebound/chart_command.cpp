@@ -5,6 +5,7 @@
 #include "lab/charts/report.hpp"
 #include "lab/charts/run.hpp"
 #include "lab/files/output_file.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "memory_check.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
@@ -56,9 +57,8 @@ Result<charts::Sweep> sweepOf(const ChartOptions& options) {
     sweep->scenes.clear();
     for (const std::string& scene : options.scenes) {
         if (scene.empty())
-            return invalidArgument(
-                "SCENES holds an empty name; glTF files, builtin:atrium or builtin:cornell "
-                "were expected");
+            return invalidArgument("SCENES holds an empty name; glTF files, " + lab::builtinSceneList() +
+                                   " were expected");
         sweep->scenes.push_back({scene, "", {}});
     }
     return sweep;
@@ -67,9 +67,8 @@ Result<charts::Sweep> sweepOf(const ChartOptions& options) {
 Result<> checkMemoryOf(const std::vector<charts::ChartBackend>& backends, const charts::Sweep& sweep) {
     for (const charts::ChartBackend& backend : backends)
         for (const charts::Setting& setting : sweep.settings) {
-            const auto plan = planOf(setting.settings);
-            if (!plan) return plan.error();
-            if (auto enough = checkMemory(*backend.backend, *plan, sweep.size); !enough) return enough;
+            if (auto enough = checkMemory(*backend.backend, setting.configured.plan, sweep.size); !enough)
+                return enough;
         }
     return {};
 }
@@ -223,8 +222,8 @@ Command addChartCommand(CLI::App& program) {
     auto options = std::make_shared<ChartOptions>();
     CLI::App* app = program.add_subcommand("chart", "chart speed against accuracy");
     app->add_option("scenes", options->scenes,
-                    "glTF 2.0 files, builtin:atrium or builtin:cornell; all their cameras\n"
-                    "(default: the sweep's, or both built-in scenes)")
+                    "glTF 2.0 files, or some of " + lab::builtinSceneList() +
+                        ";\nall their cameras (default: the sweep's)")
         ->option_text("SCENES...");
     app->add_option("--sweep", options->sweep,
                     "a JSON file: settings, backends, scenes, size, frames, reference\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The options' names and help, apart from their meaning.
+#include "lab/scenes/scene_files.hpp"
 #include "options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -8,8 +9,8 @@ namespace rebound::cli {
 
 void addSceneOptions(CLI::App& app, SourceOptions& o) {
     app.add_option("scene", o.scene,
-                   "a glTF 2.0 file (.gltf, .glb), or builtin:atrium or builtin:cornell\n"
-                   "(default: builtin:atrium)")
+                   "a glTF 2.0 file (.gltf, .glb), or\n" + lab::builtinSceneList() +
+                       "\n(default: builtin:atrium)")
         ->option_text("SCENE")
         ->group(sourceGroup);
     app.add_option("--view", o.view,
@@ -46,60 +47,36 @@ void addSourceOptions(CLI::App& app, SourceOptions& o) {
         ->group(sourceGroup);
 }
 
-void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) {
+namespace {
+
+// Of techniques that have an option of the same name, the first describes it.
+void addOptionsOf(CLI::App& app, const techniques::Technique& technique, TechniqueOptions& o,
+                  bool settingsOnly) {
+    for (const techniques::Option& option : technique.options)
+        if ((option.isSetting || !settingsOnly) && !app.get_option_no_throw("--" + option.name))
+            app.add_option_function<std::string>(
+                   "--" + option.name,
+                   [&o, name = option.name](const std::string& value) { o.draft[name] = value; }, option.help)
+                ->option_text(option.placeholder)
+                ->group(technique.heading);
+}
+
+void addTechnique(CLI::App& app, TechniqueOptions& o, bool settingsOnly) {
+    if (!app.get_option_no_throw("--technique"))
+        app.add_option("--technique", o.name, "one of " + techniques::names() + " (default: " + o.name + ")")
+            ->option_text("NAME")
+            ->group(techniqueGroup);
     app.add_option("--size", o.size, "of the pictures [pixels], each side 1 to 16384 (default: 1280x720)")
         ->option_text("WxH")
         ->group(techniqueGroup);
-    app.add_option("--preset", o.preset,
-                   "quarter-64, quarter-256, half-64, half-256: where gathering starts, and\n"
-                   "samples a level; each also with -5, for five levels instead of four.\n"
-                   "The options below replace its values (default: quarter-64)")
-        ->option_text("NAME")
-        ->group(techniqueGroup);
-    app.add_option("--start", o.start,
-                   "resolution where gathering starts: full, half or quarter of each side")
-        ->option_text("WHERE")
-        ->group(techniqueGroup);
-    app.add_option("--levels", o.levels, "levels, each half as fine as the one before, 1 to 8")
-        ->option_text("N")
-        ->group(techniqueGroup);
-    app.add_option("--radius", o.radius,
-                   "outer radius of every ring [texels of its level], 1 to 1024; auto: the\n"
-                   "smallest with which the outermost ring covers the screen\n"
-                   "(presets: 40 at 720 rows, in proportion elsewhere)")
-        ->option_text("R")
-        ->group(techniqueGroup);
-    app.add_option("--samples", o.samples,
-                   "samples a pixel and level, 4 to 256; all: every texel of every ring")
-        ->option_text("N")
-        ->group(techniqueGroup);
-    app.add_option("--reduce", o.reduction,
-                   "which texel lends a coarser one its place and normal: nearest to the eye,\n"
-                   "or by voting (presets: voting)")
-        ->option_text("HOW")
-        ->group(techniqueGroup);
-    app.add_option("--form-factor", o.formFactor,
-                   "between disc and point, bounded; or between points, unbounded, for\n"
-                   "comparison: disc or point (presets: disc)")
-        ->option_text("WHICH")
-        ->group(techniqueGroup);
-    app.add_option("--minimum-cosine", o.minimumCosine,
-                   "a pixel's area is taken as if seen at no less, 0.001 to 1 (presets: 0.05)")
-        ->option_text("C")
-        ->group(techniqueGroup);
-    app.add_option(
-           "--cover-screen", o.coverScreen,
-           "the outermost ring reaches the screen's corners, or ends at its radius: on or off\n(presets: on)")
-        ->option_text("SWITCH")
-        ->group(techniqueGroup);
-    app.add_option("--smooth", o.smooth, "a 3x3 filter at the start resolution: on or off (presets: on)")
-        ->option_text("SWITCH")
-        ->group(techniqueGroup);
-    app.add_option("--only-level", o.onlyLevel,
-                   "show what this level alone contributes, 0 to levels - 1 (default: all)")
-        ->option_text("K")
-        ->group(techniqueGroup);
+    for (const techniques::Technique& technique : techniques::all())
+        addOptionsOf(app, technique, o, settingsOnly);
 }
+
+} // namespace
+
+void addTechniqueOptions(CLI::App& app, TechniqueOptions& o) { addTechnique(app, o, false); }
+void addTechniqueSettings(CLI::App& app, TechniqueOptions& o) { addTechnique(app, o, true); }
 
 void addDeviceOptions(CLI::App& app, DeviceChoice& o) {
     app.add_option("--backend", o.backend, "what the technique runs on: cpu, vulkan or opengl (default: cpu)")

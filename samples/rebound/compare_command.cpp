@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -17,8 +18,9 @@ namespace {
 
 struct CompareCommandOptions {
     std::string test, truth;
+    std::optional<std::string> otherHalf; // then the truth is the mean of both
     std::optional<std::string> mask, out;
-    std::optional<double> exposure, largest;
+    std::optional<double> exposure, largest, truthNoise;
     double pixelsPerDegree = metrics::CompareOptions().pixelsPerDegree;
     bool json = false;
 };
@@ -41,6 +43,12 @@ Result<> checkOptions(const CompareCommandOptions& options) {
                                  std::numeric_limits<float>::max(), "a difference above 0");
         !valid)
         return valid;
+    if (auto valid =
+            checkNumber("--truth-noise", options.truthNoise, 0.0, 10.0, "a share of the mean, 0 to 10,");
+        !valid)
+        return valid;
+    if (options.truthNoise && options.otherHalf)
+        return invalidArgument("--truth-noise is given with two halves of the truth, which tell its noise");
     if (options.mask && options.mask->empty()) return invalidArgument("--mask is empty; a file was expected");
     if (options.out && !options.out->ends_with(".png"))
         return invalidArgument("--out is \"" + *options.out +
@@ -64,15 +72,30 @@ Result<lab::Image> readPicture(const std::string& file) {
 
 struct Pictures {
     lab::Image test, truth;
+    std::optional<std::array<lab::Image, 2>> halves;
     std::optional<lab::Image> mask;
 };
+
+// Turns the truth into the mean of both halves. Where they do not fit, the truth is the first, and comparing says so.
+void takeHalves(Pictures& pictures, lab::Image other) {
+    lab::Image first = pictures.truth;
+    if (first.data.size() == other.data.size())
+        for (size_t i = 0; i < first.data.size(); ++i)
+            pictures.truth.data[i] = 0.5f * (first.data[i] + other.data[i]);
+    pictures.halves = {std::move(first), std::move(other)};
+}
 
 Result<Pictures> readPictures(const CompareCommandOptions& options) {
     auto test = readPicture(options.test);
     if (!test) return test.error();
     auto truth = readPicture(options.truth);
     if (!truth) return truth.error();
-    Pictures pictures{*std::move(test), *std::move(truth), {}};
+    Pictures pictures{*std::move(test), *std::move(truth), {}, {}};
+    if (options.otherHalf) {
+        auto other = readPicture(*options.otherHalf);
+        if (!other) return other.error();
+        takeHalves(pictures, *std::move(other));
+    }
     if (options.mask) {
         auto mask = lab::readExr(*options.mask);
         if (!mask) return mask.error();
@@ -84,6 +107,7 @@ Result<Pictures> readPictures(const CompareCommandOptions& options) {
 // The library knows roles; the files' names are in front of what it says.
 Error named(const CompareCommandOptions& options, const Error& error) {
     std::string files = options.test + " against " + options.truth;
+    if (options.otherHalf) files += " and " + *options.otherHalf;
     if (options.mask) files += " with mask " + *options.mask;
     return {error.code, files + ": " + error.message};
 }
@@ -97,6 +121,8 @@ Result<> compare(const CompareCommandOptions& options) {
     how.curve = options.exposure ? lab::ToneCurve{float(*options.exposure)}
                                  : lab::automaticToneCurve(pictures->truth);
     how.pixelsPerDegree = options.pixelsPerDegree;
+    how.truthNoise = options.truthNoise;
+    if (pictures->halves) how.halves = metrics::TruthHalves{&(*pictures->halves)[0], &(*pictures->halves)[1]};
     const auto found = metrics::compareImages(pictures->test, pictures->truth, how);
     if (!found) return named(options, found.error());
     if (options.out) {
@@ -104,9 +130,15 @@ Result<> compare(const CompareCommandOptions& options) {
         if (!picture) return named(options, picture.error());
         if (auto written = lab::writePng(*options.out, *picture); !written) return written;
     }
-    const Comparison comparison{
-        options.test, options.truth,       options.mask, pictures->truth.extent(), pictures->truth.channels,
-        *how.curve,   how.pixelsPerDegree, *found};
+    const Comparison comparison{options.test,
+                                options.truth,
+                                options.otherHalf,
+                                options.mask,
+                                pictures->truth.extent(),
+                                pictures->truth.channels,
+                                *how.curve,
+                                how.pixelsPerDegree,
+                                *found};
     if (options.json) std::cout << toText(compareJson(comparison));
     else std::cout << compareText(comparison);
     return {};
@@ -123,6 +155,14 @@ Command addCompareCommand(CLI::App& program) {
     app->add_option("TRUTH", options->truth, "what it should be, of the same size and channels")
         ->option_text("FILE")
         ->required();
+    app->add_option("TRUTH_B", options->otherHalf,
+                    "where it is given, TRUTH and this are independent halves of the truth, whose\n"
+                    "noise is taken out of RMSE")
+        ->option_text("FILE");
+    app->add_option("--truth-noise", options->truthNoise,
+                    "of a truth without halves: the standard deviation of its noise, as a share of\n"
+                    "its mean; its square is taken off the squared RMSE")
+        ->option_text("SHARE");
     app->add_option("--mask", options->mask,
                     "an OpenEXR file of one channel; only pixels where it is above 0 count\n"
                     "(default: all)")
@@ -147,6 +187,7 @@ Command addCompareCommand(CLI::App& program) {
         "\n"
         "Examples:\n"
         "  rebound compare out/indirect.exr truth.exr\n"
+        "  rebound compare out/indirect.exr truth/first_bounce_a.exr truth/first_bounce_b.exr\n"
         "  rebound compare out/indirect.exr truth.exr --mask lit.exr --out errors.png --largest 0.1 --json");
     return [options] { return exitCodeOf(compare(*options)); };
 }

@@ -21,6 +21,10 @@ constexpr Measure measures[] = {
     {"bias", "bias", &ErrorMetrics::bias, "mean difference; below 0: too dark"},
     {"RMSE", "rmse", &ErrorMetrics::rmse, "root of the mean squared difference"},
     {"relative RMSE", "relative_rmse", &ErrorMetrics::relativeRmse, "RMSE over the truth's mean"},
+    {"standard error", "relative_rmse_error", &ErrorMetrics::relativeRmseError,
+     "of the relative RMSE, by the noise of the truth's halves"},
+    {"truth noise", "truth_noise", &ErrorMetrics::truthNoise,
+     "of the truth over its mean; taken out of both RMSE, not of the others"},
     {"relMSE", "rel_mse", &ErrorMetrics::relMse,
      "mean squared difference over the truth's square at each pixel"},
     {"SMAPE", "smape", &ErrorMetrics::smape, "mean difference over the mean of both at each pixel, 0 to 2"},
@@ -46,9 +50,9 @@ std::string leftOut(const Comparison& c) {
 } // namespace
 
 std::string compareText(const Comparison& c) {
-    std::string text = c.test + " against " + c.truth + ", " + std::to_string(c.extent.width) + "x" +
-                       std::to_string(c.extent.height) + "\n" + leftOut(c) + "\n\n" +
-                       formatted("%-16s %12s  %s\n", "measure", "value", "meaning");
+    std::string text = c.test + " against " + c.truth + (c.otherHalf ? " and " + *c.otherHalf : "") + ", " +
+                       std::to_string(c.extent.width) + "x" + std::to_string(c.extent.height) + "\n" +
+                       leftOut(c) + "\n\n" + formatted("%-16s %12s  %s\n", "measure", "value", "meaning");
     for (const Measure& measure : measures) {
         const double value = c.metrics.*measure.value;
         const std::string shown = std::isnan(value) ? "-" : formatted("%.6g", value);
@@ -63,6 +67,7 @@ Json compareJson(const Comparison& c) {
     Json json;
     json["test"] = c.test;
     json["truth"] = c.truth;
+    json["truth_b"] = c.otherHalf ? Json(*c.otherHalf) : Json(nullptr);
     json["mask"] = c.mask ? Json(*c.mask) : Json(nullptr);
     json["resolution"] = {c.extent.width, c.extent.height};
     json["channels"] = c.channels;

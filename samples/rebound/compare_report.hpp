@@ -11,7 +11,8 @@
 namespace rebound::cli {
 
 struct Comparison {
-    std::string test, truth; // files
+    std::string test, truth;              // files
+    std::optional<std::string> otherHalf; // of the truth
     std::optional<std::string> mask;
     Extent2D extent;
     int channels = 0;

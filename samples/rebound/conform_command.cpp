@@ -18,7 +18,8 @@ namespace {
 struct ConformOptions {
     std::string backends; // comma-separated; empty: all that there are
     std::string device;
-    std::string only; // part of cases' names
+    std::string only;      // part of cases' names
+    std::string technique; // empty: all
     int cases = 100;
     uint64_t seed = 1;
     bool validation = false;
@@ -74,23 +75,36 @@ Result<Contenders> createContenders(const ConformOptions& options) {
     return contenders;
 }
 
-std::vector<conformance::NamedCase> chosenCases(const ConformOptions& options) {
-    std::vector<conformance::NamedCase> all = conformance::hardCases();
-    for (auto& more : {conformance::randomCases(options.cases, options.seed), conformance::sceneCases()})
+Result<std::vector<conformance::NamedCase>> chosenCases(const ConformOptions& options) {
+    if (!options.technique.empty())
+        if (auto known = techniques::named("--technique", options.technique); !known) return known.error();
+    const auto isChosen = [&](const std::string& name) {
+        return options.technique.empty() || options.technique == name;
+    };
+    std::vector<conformance::NamedCase> all;
+    const auto add = [&](std::vector<conformance::NamedCase> more) {
         all.insert(all.end(), more.begin(), more.end());
+    };
+    if (isChosen("screen_indirect")) {
+        add(conformance::hardCases());
+        add(conformance::randomCases(options.cases, options.seed));
+    }
+    for (const techniques::Technique& technique : techniques::all())
+        if (isChosen(technique.name)) add(conformance::sceneCases(technique));
     std::erase_if(all, [&](const auto& c) { return c.name.find(options.only) == std::string::npos; });
     return all;
 }
 
 Result<int> conform(const ConformOptions& options) {
-    const std::vector<conformance::NamedCase> cases = chosenCases(options);
-    if (cases.empty())
+    const auto cases = chosenCases(options);
+    if (!cases) return cases.error();
+    if (cases->empty())
         return invalidArgument("--only is \"" + options.only + "\", which is in no case's name");
     auto contenders = createContenders(options);
     if (!contenders) return contenders.error();
     auto report = [&] {
         ProgressLine line("comparing");
-        return conformance::run(cases, contenders->present, [&](double share) { line.update(share); });
+        return conformance::run(*cases, contenders->present, [&](double share) { line.update(share); });
     }();
     if (!report) return report.error();
     if (!options.out.empty())
@@ -112,6 +126,8 @@ Command addConformCommand(CLI::App& program) {
                     "(default: all that this machine has)")
         ->option_text("LIST");
     app->add_option("--device", options->device, "of vulkan and opengl: part of the device's name")
+        ->option_text("NAME");
+    app->add_option("--technique", options->technique, "one of " + techniques::names() + " (default: all)")
         ->option_text("NAME");
     app->add_option("--cases", options->cases, "random G-buffers and settings, 0 to 100000 (default: 100)")
         ->option_text("N")

@@ -67,12 +67,13 @@ Json toJson(const Cause& cause) {
 }
 
 Json toJson(const ExplainCommandOptions& options, const lab::CameraView& camera, Extent2D extent,
-            const Explanation& explanation) {
+            const Json& settings, const Explanation& explanation) {
     Json json;
     json["scene"] = options.source.scene;
     json["camera"] = camera.name;
     json["resolution"] = {extent.width, extent.height};
-    json["preset"] = options.technique.preset;
+    json["technique"] = options.technique.name;
+    json["settings"] = settings;
     json["bounces"] = options.bounces;
     json["samples"] = options.samples;
     json["truth_mean"] = explanation.truthMean;
@@ -132,9 +133,10 @@ Result<> writePictures(const ExplainCommandOptions& options, const Explanation& 
 Result<> explainScene(const ExplainCommandOptions& options) {
     const auto extent = parseSize(options.technique.size);
     if (!extent) return extent.error();
-    const auto settings = settingsOf(options.technique, *extent);
-    if (!settings) return settings.error();
-    if (auto plan = planOf(*settings); !plan) return plan.error();
+    const auto technique = techniqueOf(options.technique);
+    if (!technique) return technique.error();
+    const auto configured = configure(options.technique, {*extent});
+    if (!configured) return configured.error();
     ReferenceOptions reference;
     reference.bounces = options.bounces;
     reference.samples = options.samples;
@@ -147,7 +149,9 @@ Result<> explainScene(const ExplainCommandOptions& options) {
     if (!view) return view.error();
 
     explain::ExplainOptions explaining;
-    explaining.settings = *settings;
+    explaining.technique = *technique;
+    explaining.draft = options.technique.draft;
+    explaining.extent = *extent;
     explaining.bounces = options.bounces;
     explaining.samples = options.samples;
     explaining.threads = options.threads;
@@ -157,11 +161,11 @@ Result<> explainScene(const ExplainCommandOptions& options) {
         return explain::explainError(view->scene, view->camera, explaining);
     }();
     if (!explanation) return explanation.error();
-    const Json json = toJson(options, view->camera, *extent, *explanation);
+    const Json json = toJson(options, view->camera, *extent, configured->settings, *explanation);
     if (options.json) std::cout << toText(json);
     else
         std::cout << options.source.scene << ", camera " << view->camera.name << ", "
-                  << options.technique.size << ", " << options.technique.preset
+                  << options.technique.size << ", " << configured->name
                   << formatted(", against %d bounces, %d paths a pixel; mean %.4g W m^-2 sr^-1\n",
                                options.bounces, options.samples, explanation->truthMean)
                   << tableOf(*explanation);
@@ -176,10 +180,9 @@ Command addExplainCommand(CLI::App& program) {
     CLI::App* app =
         program.add_subcommand("explain", "say how much of the technique's error has which cause");
     addSceneOptions(*app, options->source);
-    addTechniqueOptions(*app, options->technique);
+    addTechniqueSettings(*app, options->technique);
     app->get_option("--size")->description(
         "of the pictures [pixels]; the sums over all pixels grow with its square\n(default: 320x180)");
-    app->remove_option(app->get_option("--only-level"));
     app->add_option("--bounces", options->bounces, "of the truth, 1 to 64 (default: 8)")
         ->option_text("N")
         ->group(referenceGroup);

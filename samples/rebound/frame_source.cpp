@@ -15,14 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<lab::Scene> loadSceneOf(const SourceOptions& options) {
-    if (options.scene.empty())
-        return invalidArgument("SCENE is empty; a glTF file, builtin:atrium or builtin:cornell was expected");
-    if (options.time && !std::isfinite(*options.time))
-        return invalidArgument("--time is not finite; a number of seconds was expected");
-    if ((options.animation || options.time) && options.scene.starts_with("builtin:"))
-        return invalidArgument("--time and --animation need a glTF file, but the scene is " + options.scene +
-                               ", which does not move");
-    return lab::loadScene(options.scene, options.view, {options.animation, options.time});
+    if (auto valid = checkSource(options); !valid) return valid.error();
+    return lab::loadScene(options.scene, options.view, {options.animation, options.time, {}});
 }
 
 Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, int threads) {
@@ -38,6 +32,17 @@ Result<lab::Frame> renderSource(const SourceOptions& options, Extent2D extent, i
 }
 
 } // namespace
+
+Result<> checkSource(const SourceOptions& options) {
+    if (options.scene.empty())
+        return invalidArgument("SCENE is empty; a glTF file, " + lab::builtinSceneList() + " was expected");
+    if (options.time && !std::isfinite(*options.time))
+        return invalidArgument("--time is not finite; a number of seconds was expected");
+    if ((options.animation || options.time) && options.scene.starts_with("builtin:"))
+        return invalidArgument("--time and --animation need a glTF file, but the scene is " + options.scene +
+                               ", which has no animation");
+    return {};
+}
 
 Result<SourcedView> loadView(const SourceOptions& options) {
     auto scene = loadSceneOf(options);

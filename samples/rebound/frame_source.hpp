@@ -18,6 +18,9 @@ struct SourcedView {
     lab::CameraView camera;
 };
 
+// What can be said about the scene's options before it is loaded.
+Result<> checkSource(const SourceOptions&);
+
 // The scene and camera that the options name; precondition: they name no stored frame.
 Result<SourcedView> loadView(const SourceOptions&);
 

@@ -2,7 +2,8 @@
 // What the commands share on the command line, and what it means.
 #pragma once
 
-#include "lab/measure/settings_draft.hpp"
+#include "lab/measure/run_values.hpp"
+#include "lab/techniques/technique.hpp"
 
 #include <optional>
 #include <string>
@@ -25,8 +26,10 @@ struct SourceOptions {
     int lightSamples = 16;                // shadow rays a pixel for each light that is not a point
 };
 
-// Settings of the technique as they were written; those that are absent are the preset's.
-struct TechniqueOptions : measure::SettingsDraft {
+// A technique and its settings as they were written.
+struct TechniqueOptions {
+    std::string name = techniques::all().front().name;
+    techniques::Draft draft;
     std::string size = "1280x720";
 };
 
@@ -40,7 +43,7 @@ struct DeviceChoice {
 
 // Headings of --help.
 inline constexpr const char* sourceGroup = "Scene";
-inline constexpr const char* techniqueGroup = "Screen-space indirect light";
+inline constexpr const char* techniqueGroup = "Technique";
 inline constexpr const char* referenceGroup = "Path-traced reference";
 inline constexpr const char* deviceGroup = "Device";
 
@@ -48,7 +51,10 @@ inline constexpr const char* deviceGroup = "Device";
 void addSceneOptions(CLI::App&, SourceOptions&);
 // The same, or a stored frame.
 void addSourceOptions(CLI::App&, SourceOptions&);
+// --technique, --size and the options of every technique.
 void addTechniqueOptions(CLI::App&, TechniqueOptions&);
+// That, without options that are no settings.
+void addTechniqueSettings(CLI::App&, TechniqueOptions&);
 void addDeviceOptions(CLI::App&, DeviceChoice&);
 // To be called after the three above: those that say what a scene looks like contradict --frame.
 void excludeSceneOptionsFromFrames(CLI::App&);
@@ -59,11 +65,11 @@ std::vector<std::string> splitList(const std::string&);
 // WIDTHxHEIGHT, each 1 to maximumExtent.
 Result<Extent2D> parseSize(const std::string&);
 
-// The preset with the options' own values; resolution replaces --size. The result is not validated.
-Result<ScreenIndirectSettings> settingsOf(const TechniqueOptions&, Extent2D resolution);
+// The technique that was asked for. Fails where there is no such technique, or an option was given that is another's.
+Result<const techniques::Technique*> techniqueOf(const TechniqueOptions&);
 
-// A plan, with errors that name options instead of settings.
-Result<Plan> planOf(const ScreenIndirectSettings&);
+// That technique with its settings, for such pictures; their size replaces --size.
+Result<techniques::Configured> configure(const TechniqueOptions&, const techniques::View&);
 
 // A backend whose passes are measured.
 Result<std::unique_ptr<runner::Backend>> createBackend(const DeviceChoice&);
@@ -78,5 +84,6 @@ struct Preparation {
 Result<Preparation> prepare(const TechniqueOptions&, const DeviceChoice&);
 
 using measure::nameOf;
+using techniques::Json;
 
 } // namespace rebound::cli

@@ -15,18 +15,17 @@ namespace {
 Result<> printPlan(const TechniqueOptions& options) {
     const auto extent = parseSize(options.size);
     if (!extent) return extent.error();
-    const auto settings = settingsOf(options, *extent);
-    if (!settings) return settings.error();
-    const auto plan = planOf(*settings);
-    if (!plan) return plan.error();
+    const auto configured = configure(options, {*extent});
+    if (!configured) return configured.error();
+    const Plan& plan = configured->plan;
     DeviceChoice choice;
     choice.threads = 1; // nothing runs
     const auto backend = createBackend(choice);
     if (!backend) return backend.error();
-    const auto use = (*backend)->memoryUse(*plan);
+    const auto use = (*backend)->memoryUse(plan);
     if (!use) return use.error();
-    std::cout << rebound::toText(*plan) << "memory on the CPU " << toText(*use) << "\nmemory on a GPU "
-              << toText(*memoryUse(*plan)) << '\n';
+    std::cout << rebound::toText(plan) << "memory on the CPU " << toText(*use) << "\nmemory on a GPU "
+              << toText(*memoryUse(plan)) << '\n';
     return {};
 }
 

@@ -4,8 +4,8 @@
 #include "frame_source.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/light/reference_cache.hpp"
-#include "lab/measure/named_values.hpp"
 #include "lab/scenes/camera_json.hpp"
+#include "lab/techniques/named_values.hpp"
 #include "memory_check.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The paths' sums take 216, twice while they are written; the frame 52, light 88, pictures of it and files 150.
-constexpr double bytesPerPixel = 730.0;
+// The paths' sums take 360, twice while they are written; the frame 52, light 136, pictures of it and files 150.
+constexpr double bytesPerPixel = 1060.0;
 
 constexpr std::pair<const char*, lab::GlossyModel> glossyNames[] = {
     {"none", lab::GlossyModel::diffuseOnly},
@@ -91,6 +91,11 @@ std::vector<OutputFile> filesOf(const lab::Frame& frame, const lab::PathTracedLi
     files.push_back(exrFile("direct.exr", light.direct, full));
     files.push_back(exrFile("first_bounce.exr", light.firstBounce, full));
     files.push_back(exrFile("indirect.exr", light.indirect, full));
+    for (const auto& [name, image] : {std::pair{"first_bounce_a.exr", &light.firstBounceHalves[0]},
+                                      std::pair{"first_bounce_b.exr", &light.firstBounceHalves[1]},
+                                      std::pair{"indirect_a.exr", &light.indirectHalves[0]},
+                                      std::pair{"indirect_b.exr", &light.indirectHalves[1]}})
+        files.push_back(exrFile(name, *image, full));
     if (!light.glossy.empty()) files.push_back(exrFile("glossy.exr", light.glossy, full));
     files.push_back(exrFile("standard_error.exr", light.standardError, full));
     files.push_back(exrFile("final.exr", images.final, full));
@@ -121,7 +126,9 @@ Result<lab::PathTracedLight> trace(const SourcedView& view, lab::PathTracerOptio
 
 } // namespace
 
-const char* nameOf(lab::GlossyModel value) { return measure::nameIn<lab::GlossyModel>(glossyNames, value); }
+const char* nameOf(lab::GlossyModel value) {
+    return techniques::nameIn<lab::GlossyModel>(glossyNames, value);
+}
 
 void addReferenceOptions(CLI::App& app, ReferenceOptions& o) {
     app.add_option("--bounces", o.bounces,
@@ -155,7 +162,7 @@ Result<lab::PathTracerOptions> pathTracerOptionsOf(const ReferenceOptions& o, Ex
     options.error = o.error.value_or(options.error);
     options.seed = o.seed.value_or(options.seed);
     if (o.glossy) {
-        const auto glossy = measure::valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
+        const auto glossy = techniques::valueNamed<lab::GlossyModel>("--glossy", *o.glossy, glossyNames);
         if (!glossy) return glossy.error();
         options.glossy = *glossy;
     }

@@ -3,13 +3,13 @@
 #include "frame_source.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/measure/frame_pipeline.hpp"
-#include "lab/measure/named_values.hpp"
 #include "lab/runner/texels.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
 #include "pictures.hpp"
 #include "reference_render.hpp"
 #include "report.hpp"
+#include "sequence_render.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -22,14 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* screenIndirect = "screen_indirect";
-constexpr const char* reference = "reference";
+constexpr const char* reference = "reference"; // --technique, beside those that run on devices
 
 struct RenderOptions {
     SourceOptions source;
-    std::string name = screenIndirect;
     TechniqueOptions technique;
     ReferenceOptions reference;
+    SequenceChoice sequence;
     DeviceChoice device;
     std::string out = "out";
 };
@@ -87,11 +86,11 @@ Result<> render(const RenderOptions& options) {
     if (auto writable = checkOutputFolder(options.out); !writable) return writable;
     const auto source = obtainFrame(options.source, preparation->extent, options.device.threads);
     if (!source) return source.error();
-    const auto settings = settingsOf(options.technique, source->frame.depth.extent());
-    if (!settings) return settings.error();
-    auto pipeline = measure::FramePipeline::create(source->frame, *settings, *preparation->backend,
-                                                   preparation->precision);
-    if (!pipeline) return measure::spelled(pipeline.error(), measure::Spelling::options);
+    auto configured = configure(options.technique, techniques::viewOf(source->frame));
+    if (!configured) return configured.error();
+    auto pipeline = measure::FramePipeline::create(source->frame, *std::move(configured),
+                                                   *preparation->backend, preparation->precision);
+    if (!pipeline) return pipeline.error();
     const auto milliseconds = runMeasured(*pipeline);
     if (!milliseconds) return milliseconds.error();
 
@@ -100,10 +99,9 @@ Result<> render(const RenderOptions& options) {
     if (!composed) return composed.error();
     const RenderedImages images{pipeline->direct(), *std::move(indirect), *std::move(composed)};
     const lab::ToneCurve curve = lab::automaticToneCurve(images.final);
-    Json figures =
-        timingsToJson(runToJson(*source, pipeline->settings(), options.technique.preset,
-                                preparation->backend->info(), preparation->precision, pipeline->memoryUse()),
-                      pipeline->timings(), *milliseconds);
+    Json figures = timingsToJson(runToJson(*source, pipeline->technique(), preparation->backend->info(),
+                                           preparation->precision, pipeline->memoryUse()),
+                                 pipeline->timings(), *milliseconds);
     figures["exposure"] = curve.exposure;
     std::vector<OutputFile> files = imageFiles(images, curve, preparation->precision);
     files.push_back({"contact_sheet.png", [&](const fs::path& path) {
@@ -112,8 +110,8 @@ Result<> render(const RenderOptions& options) {
     files.push_back(textFile("timings.json", toText(figures)));
     if (auto written = writeOutputFolder(options.out, files); !written) return written;
 
-    std::cout << describeRun(*source, pipeline->settings(), options.technique.preset,
-                             preparation->backend->info(), preparation->precision)
+    std::cout << describeRun(*source, pipeline->technique(), preparation->backend->info(),
+                             preparation->precision)
               << '\n'
               << timingTable(pipeline->timings(), *milliseconds) << "\nmemory "
               << toText(pipeline->memoryUse()) << "\nexposure " << curve.exposure
@@ -125,29 +123,37 @@ Result<> render(const RenderOptions& options) {
     return {};
 }
 
-// Options that the chosen technique would ignore are mistakes.
+// Options that the chosen technique would ignore are mistakes; those of other techniques are techniqueOf()'s to refuse.
 Result<> checkOptions(const CLI::App& app, const RenderOptions& options) {
-    if (options.name != screenIndirect && options.name != reference)
-        return measure::unexpected("--technique", options.name,
-                                   std::string("one of ") + screenIndirect + ", " + reference);
-    const bool traced = options.name == reference;
+    const bool traced = options.technique.name == reference;
     for (const CLI::Option* option : app.get_options()) {
-        const std::string name = "--" + (option->get_lnames().empty() ? "" : option->get_lnames()[0]);
-        const bool ignored = traced ? option->get_group() == techniqueGroup ||
-                                          option->get_group() == deviceGroup || name == "--frame" ||
-                                          name == "--light-samples"
+        const std::string name = option->get_lnames().empty() ? "" : option->get_lnames()[0];
+        const bool ignored = traced ? options.technique.draft.contains(name) ||
+                                          (option->get_group() == deviceGroup && name != "threads") ||
+                                          option->get_group() == sequenceGroup || name == "frame" ||
+                                          name == "light-samples"
                                     : option->get_group() == referenceGroup;
-        if (option->count() > 0 && ignored && name != "--size" && name != "--threads")
-            return invalidArgument(name + " was given, which --technique " + options.name + " does not use");
+        if (option->count() > 0 && ignored)
+            return invalidArgument("--" + name + " was given, which --technique " + options.technique.name +
+                                   " does not use");
     }
     return {};
 }
 
 Result<> renderChosen(const CLI::App& app, const RenderOptions& options) {
+    if (options.technique.name != reference)
+        if (auto known = techniques::named("--technique", options.technique.name); !known)
+            return invalidArgument("--technique is \"" + options.technique.name + "\"; one of " +
+                                   techniques::names() + ", " + reference + " was expected");
     if (auto valid = checkOptions(app, options); !valid) return valid;
-    if (options.name == reference)
+    if (options.technique.name == reference)
         return renderReference(options.source, options.technique.size, options.device.threads,
                                options.reference, options.out);
+    if (options.sequence.isAsked())
+        return renderSequence(options.source, options.technique, options.device, options.sequence,
+                              options.out);
+    if (options.sequence.path || options.sequence.framesPerSecond)
+        return invalidArgument("--frames is missing; --path and --fps need a number of frames");
     return render(options);
 }
 
@@ -157,12 +163,14 @@ Command addRenderCommand(CLI::App& program) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* app = program.add_subcommand("render", "render a scene or a stored frame with indirect light");
     addSourceOptions(*app, options->source);
-    app->add_option("--technique", options->name,
-                    "screen_indirect, or reference: path-traced truth (default: screen_indirect)")
+    app->add_option("--technique", options->technique.name,
+                    "one of " + techniques::names() +
+                        ", or reference: path-traced truth\n(default: " + options->technique.name + ")")
         ->option_text("NAME")
-        ->group("Technique");
+        ->group(techniqueGroup);
     addTechniqueOptions(*app, options->technique);
     addReferenceOptions(*app, options->reference);
+    addSequenceOptions(*app, options->sequence);
     addDeviceOptions(*app, options->device);
     excludeSceneOptionsFromFrames(*app);
     app->add_option("--out", options->out,
@@ -188,7 +196,8 @@ Command addRenderCommand(CLI::App& program) {
         "  rebound render scene.gltf --camera front --size 1920x1080 --preset half-64 --out front\n"
         "  rebound render builtin:cornell --size 512x512 --levels 5 --radius auto --only-level 2\n"
         "  rebound render builtin:cornell --technique reference --size 320x180 --bounces 1 --error 0.01\n"
-        "  rebound render --frame captured --preset half-256 --precision float");
+        "  rebound render --frame captured --preset half-256 --precision float\n"
+        "  rebound render builtin:street --frames 150 --size 640x360 --out walk");
     return [app, options] { return exitCodeOf(renderChosen(*app, *options)); };
 }
 

@@ -7,10 +7,6 @@ namespace rebound::cli {
 
 namespace {
 
-std::string plural(int count, const char* what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string megabytes(size_t bytes) { return formatted("%.2f MB", double(bytes) / 1e6); }
 
 } // namespace
@@ -19,31 +15,23 @@ std::string toText(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string describeRun(const SourcedFrame& source, const ScreenIndirectSettings& s,
-                        const std::string& preset, const runner::BackendInfo& backend,
-                        runner::Precision precision) {
+std::string describeRun(const SourcedFrame& source, const techniques::Configured& technique,
+                        const runner::BackendInfo& backend, runner::Precision precision) {
     std::string text = source.name;
     if (!source.frame.camera.name.empty()) text += ", camera " + source.frame.camera.name;
-    text += ", " + std::to_string(s.resolution.width) + "x" + std::to_string(s.resolution.height) + ", " +
-            runner::toText(backend) + ", images in " + nameOf(precision) + "\n";
-    text += preset + ": from " + nameOf(s.start) + " resolution, " + plural(s.levels, "level") + ", " +
-            measure::samplesText(s) + " samples a level, " +
-            formatted("ring radius %g texels, ", double(s.ringRadius)) + nameOf(s.reduction) +
-            ", form factor " + nameOf(s.formFactor) +
-            formatted(", minimum cosine %g", double(s.minimumCosine));
-    if (!s.coverScreen) text += ", not covering the screen";
-    if (!s.smooth) text += ", not smoothed";
-    if (s.onlyLevel) text += ", only level " + std::to_string(*s.onlyLevel);
-    return text + "\n";
+    const Extent2D size = source.frame.depth.extent();
+    return text + ", " + std::to_string(size.width) + "x" + std::to_string(size.height) + ", " +
+           runner::toText(backend) + ", images in " + nameOf(precision) + "\n" + technique.description + "\n";
 }
 
-Json runToJson(const SourcedFrame& source, const ScreenIndirectSettings& s, const std::string& preset,
+Json runToJson(const SourcedFrame& source, const techniques::Configured& technique,
                const runner::BackendInfo& backend, runner::Precision precision, const MemoryUse& memory) {
     Json json;
     json[source.isStored ? "frame_folder" : "scene"] = source.name;
     json["camera"] = source.frame.camera.name;
-    json["resolution"] = {s.resolution.width, s.resolution.height};
-    json["settings"] = measure::settingsToJson(s, preset);
+    json["resolution"] = {source.frame.depth.width, source.frame.depth.height};
+    json["technique"] = technique.plan.technique;
+    json["settings"] = technique.settings;
     json["backend"] = backend.backend;
     if (backend.backend == "cpu") {
         json["isa"] = backend.isa;
@@ -59,7 +47,8 @@ Json runToJson(const SourcedFrame& source, const ScreenIndirectSettings& s, cons
     return json;
 }
 
-std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>& rows) {
+std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>& rows,
+                    LastRow last) {
     size_t nameWidth = headings[0].size();
     for (const TableRow& row : rows) nameWidth = std::max(nameWidth, row.first.size());
     const auto widthOf = [](const std::string& heading) { return int(std::max<size_t>(heading.size(), 12)); };
@@ -72,7 +61,7 @@ std::string toTable(const std::vector<std::string>& headings, const std::vector<
     text += "\n";
     const std::string rule(text.size() - 1, '-');
     for (const TableRow& row : rows) {
-        if (&row == &rows.back()) text += rule + "\n";
+        if (last == LastRow::apart && &row == &rows.back()) text += rule + "\n";
         text += padded(row.first);
         for (size_t i = 0; i < row.second.size(); ++i)
             text += formatted("  %*.2f", widthOf(headings[i + 1]), row.second[i]);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "frame_source.hpp"
-#include "lab/measure/settings_json.hpp"
 
 #include <cstdio>
 #include <string>
@@ -11,8 +10,6 @@
 #include <vector>
 
 namespace rebound::cli {
-
-using measure::Json;
 
 // As printf has it, up to 511 characters.
 template <class... Values>
@@ -26,16 +23,18 @@ std::string formatted(const char* format, Values... values) {
 std::string toText(const Json&);
 
 // What was run on what, in two lines.
-std::string describeRun(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,
-                        const runner::BackendInfo&, runner::Precision);
-// The same for programs: scene or frame, camera, resolution, settings, backend, device, isa, threads, precision, memory
-// [bytes].
-Json runToJson(const SourcedFrame&, const ScreenIndirectSettings&, const std::string& preset,
-               const runner::BackendInfo&, runner::Precision, const MemoryUse&);
+std::string describeRun(const SourcedFrame&, const techniques::Configured&, const runner::BackendInfo&,
+                        runner::Precision);
+// The same for programs: scene or frame, camera, resolution, technique, settings, backend, device, isa, threads,
+// precision, memory [bytes].
+Json runToJson(const SourcedFrame&, const techniques::Configured&, const runner::BackendInfo&,
+               runner::Precision, const MemoryUse&);
 
-// A table with a name and numbers in each row, two decimals; the last row is set apart.
+// A table with a name and numbers in each row, two decimals; the last row may be set apart.
 using TableRow = std::pair<std::string, std::vector<double>>;
-std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>&);
+enum class LastRow { apart, together };
+std::string toTable(const std::vector<std::string>& headings, const std::vector<TableRow>&,
+                    LastRow = LastRow::apart);
 
 std::string toText(const MemoryUse&);
 

@@ -23,10 +23,10 @@ public:
     }
 
     // Light that is a fifth too bright, in 1, 2 and 3 ms.
-    Result<Trial> measure(const View& view, const Setting& setting, ChartBackend&,
+    Result<Trial> measure(const View& view, const techniques::Configured& technique, ChartBackend&,
                           const lab::Progress&) override {
         if (int(measured.size()) == failsAfter) return Error{ErrorCode::deviceLost, "the device was lost"};
-        measured.push_back(view.label + " " + setting.name);
+        measured.push_back(view.label + " " + technique.name);
         lab::Image light(size, 3, 2.4f);
         light.data[0] = firstValue;
         return Trial{{3.0, 1.0, 2.0}, light};

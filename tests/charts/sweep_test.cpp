@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "../lab/temporary_folder.hpp"
 #include "lab/charts/sweep.hpp"
+#include "rebound/techniques/screen_indirect.hpp"
 
 #include <doctest/doctest.h>
 
@@ -43,20 +44,18 @@ TEST_CASE("a sweep's values reach the settings") {
         "size": "320x200", "frames": 7, "warm_up": 0, "reference": {"bounces": 8, "samples": 32, "error": 0}})",
                                   "sweep");
     REQUIRE_MESSAGE(sweep, sweep.error().message);
-    const ScreenIndirectSettings& settings = sweep->settings[0].settings;
-    CHECK(settings.resolution == Extent2D{320, 200});
-    CHECK(settings.start == StartResolution::full);
-    CHECK(settings.levels == 3);
-    CHECK(settings.samplesPerLevel == 8);
-    CHECK(settings.ringRadius == 12.5f);
-    CHECK(settings.reduction == Reduction::nearest);
-    CHECK(settings.formFactor == FormFactor::pointToPoint);
-    CHECK(settings.minimumCosine == 0.25f);
-    CHECK(!settings.coverScreen);
-    CHECK(!settings.smooth);
+    const Setting& setting = sweep->settings[0];
+    CHECK(setting.technique->name == "screen_indirect");
+    CHECK(setting.configured.settings ==
+          Json::parse(R"({"preset": "quarter-64", "start": "full", "levels": 3, "samples_per_level": 8,
+                          "ring_radius_texels": 12.5, "reduction": "nearest", "form_factor": "point",
+                          "minimum_cosine": 0.25, "cover_screen": false, "smooth": false, "only_level": null})"));
+    const Plan& plan = setting.configured.plan;
+    CHECK(plan.resources[size_t(plan.find("depth"))].extent == Extent2D{320, 200});
     CHECK(sweep->settings[0].name == "full-8-3 nearest form factor point radius 12.5 minimum cosine 0.25 "
                                      "not covering not smoothed");
-    CHECK(sweep->settings[1].settings.ringRadius == coveringRingRadius(sweep->settings[1].settings));
+    CHECK(sweep->settings[1].configured.settings.at("ring_radius_texels") ==
+          coveringRingRadius(*screenIndirectPreset("quarter-64", {320, 200})));
     CHECK(sweep->backends == std::vector<std::string>{"scalar", "cpu"});
     REQUIRE(sweep->scenes.size() == 2);
     CHECK(sweep->scenes[1].viewFile == "night.json");
@@ -73,7 +72,7 @@ TEST_CASE("another size replaces the file's, and rings follow it") {
                                   Extent2D{1280, 720});
     REQUIRE(sweep);
     CHECK(sweep->size == Extent2D{1280, 720});
-    CHECK(sweep->settings[0].settings.ringRadius == 40.0f);
+    CHECK(sweep->settings[0].configured.settings.at("ring_radius_texels") == 40.0f);
 }
 
 TEST_CASE("the default sweep has all presets, 16 to 256 samples, both starts and both reductions") {
@@ -107,7 +106,7 @@ TEST_CASE("unknown keys and impossible values are refused with file, key, value 
         {"", {"it is not a sweep"}},
         {"[]", {"not an object"}},
         {"{}", {"techniques is missing"}},
-        {R"({"techniques": {}})", {"techniques.screen_indirect is missing"}},
+        {R"({"techniques": {}})", {"techniques is {}", "screen_indirect"}},
         {R"({"techniques": []})", {"techniques is []", "an object"}},
         {R"({"techniques": {"path_tracing": []}})", {"path_tracing", "screen_indirect"}},
         {R"({"techniques": {"screen_indirect": []}})", {"techniques.screen_indirect is []", "not empty"}},
@@ -115,14 +114,16 @@ TEST_CASE("unknown keys and impossible values are refused with file, key, value 
         {withSetting(R"("leves": 3)"), {"screen_indirect[1]", "\"leves\"", "levels"}},
         {withSetting(R"("levels": 9)"), {"screen_indirect[1].levels is 9", "1 to 8"}},
         {withSetting(R"("levels": [3, 0])"), {"levels is 0", "1 to 8"}},
-        {withSetting(R"("levels": 2.5)"), {"levels is 2.5", "whole"}},
+        {withSetting(R"("levels": 2.5)"), {"levels is \"2.5\"", "whole"}},
         {withSetting(R"("levels": 1e300)"), {"levels", "whole"}},
         {withSetting(R"("levels": [])"), {"levels is []"}},
         {withSetting(R"("levels": [[1]])"), {"levels is [1]"}},
         {withSetting(R"("samples": 257)"), {"samples is \"257\"", "4 to 256"}},
         {withSetting(R"("samples": "many")"), {"samples is \"many\"", "all"}},
         {withSetting(R"("preset": "fast")"), {"preset is \"fast\"", "quarter-64"}},
-        {withSetting(R"("preset": 4)"), {"preset is 4", "a text"}},
+        {withSetting(R"("preset": 4)"), {"preset is \"4\"", "quarter-64"}},
+        {withSetting(R"("preset": true)"), {"preset is true", "a text or a number"}},
+        {withSetting(R"("only_level": 1)"), {"screen_indirect[1]", "\"only_level\"", "levels"}},
         {withSetting(R"("start": "third")"), {"start is \"third\"", "half"}},
         {withSetting(R"("reduce": "sum")"), {"reduce is \"sum\"", "voting"}},
         {withSetting(R"("form_factor": "ring")"), {"form_factor is \"ring\"", "disc"}},

@@ -52,6 +52,31 @@ TEST_CASE("compare prints every measure, what it means and what was left out") {
     CHECK(pictures.files() == 2);
 }
 
+TEST_CASE("two halves of the truth, or a figure, take its noise out of RMSE") {
+    const Pictures pictures;
+    pictures.write("a.exr", lab::Image({20, 12}, 3, 1.0f));
+    pictures.write("b.exr", lab::Image({20, 12}, 3, 2.0f));
+    const nlohmann::json halves = pictures.compareToJson("test.exr a.exr b.exr");
+    // (2.5 - 1) (2.5 - 2), over a mean of 1.5; half the halves' difference is noise.
+    CHECK(halves.at("rmse") == Approx(std::sqrt(0.75)));
+    CHECK(halves.at("truth_mean") == 1.5);
+    CHECK(halves.at("truth_noise") == Approx(0.5 / 1.5));
+    CHECK(halves.at("relative_rmse_error").get<double>() > 0.0);
+    CHECK(halves.at("truth_b") == "b.exr");
+    const nlohmann::json figure = pictures.compareToJson("test.exr truth.exr --truth-noise 0.15");
+    CHECK(figure.at("rmse") == Approx(std::sqrt(0.25 - 0.09)));
+    CHECK(figure.at("relative_rmse_error").is_null());
+    CHECK(pictures.compareToJson("test.exr truth.exr").at("truth_noise").is_null());
+    const Outcome table = pictures.compare("test.exr a.exr b.exr");
+    for (const char* text : {"test.exr against a.exr and b.exr", "standard error", "truth noise"})
+        CHECK_MESSAGE(table.output.find(text) != std::string::npos, text);
+    checkRefused(pictures.compare("test.exr a.exr b.exr --truth-noise 0.1"), {"--truth-noise", "halves"});
+    checkRefused(pictures.compare("test.exr truth.exr --truth-noise -1"), {"--truth-noise is -1", "0 to 10"});
+    checkRefused(pictures.compare("test.exr a.exr missing.exr"), {"missing.exr"});
+    pictures.write("small.exr", lab::Image({10, 12}, 3, 2.0f));
+    checkRefused(pictures.compare("test.exr a.exr small.exr"), {"a.exr and small.exr", "halves"});
+}
+
 TEST_CASE("--json has the numbers") {
     const Pictures pictures;
     const nlohmann::json json =

@@ -34,6 +34,10 @@ TEST_CASE("a reference is the path tracer's light, in a folder that --frame take
     REQUIRE(light);
     CHECK(read(folder / "truth/direct.exr").data == light->direct.data);
     CHECK(read(folder / "truth/first_bounce.exr").data == light->firstBounce.data);
+    CHECK(read(folder / "truth/first_bounce_a.exr").data == light->firstBounceHalves[0].data);
+    CHECK(read(folder / "truth/first_bounce_b.exr").data == light->firstBounceHalves[1].data);
+    CHECK(read(folder / "truth/indirect_a.exr").data == light->indirectHalves[0].data);
+    CHECK(read(folder / "truth/indirect_b.exr").data == light->indirectHalves[1].data);
     CHECK(read(folder / "truth/indirect.exr").data == light->indirect.data);
     CHECK(read(folder / "truth/standard_error.exr").data == light->standardError.data);
     const auto meta = nlohmann::json::parse(lab::readText(folder / "truth/meta.json"));

@@ -66,12 +66,12 @@ TEST_CASE(
 
 TEST_CASE("more samples leave less of the error that samples cause, and a finer start less of its own") {
     ExplainOptions options = optionsOf({96, 72}, 8, 1);
-    options.settings.ringRadius = 12.0f; // of a few hundred texels
-    options.settings.samplesPerLevel = 8;
+    options.draft["radius"] = "12"; // of a few hundred texels
+    options.draft["samples"] = "8";
     const Explanation few = explained(cornerScene(), cornerCamera(), options);
-    options.settings.samplesPerLevel = 128;
-    options.settings.start = StartResolution::full;
-    options.settings.smooth = false;
+    options.draft["samples"] = "128";
+    options.draft["start"] = "full";
+    options.draft["smooth"] = "off";
     const Explanation many = explained(cornerScene(), cornerCamera(), options);
     CHECK(causeNamed(many, "too few samples").rms < 0.5 * causeNamed(few, "too few samples").rms);
     CHECK(causeNamed(many, "start resolution").rms < 1e-5); // the same sum twice
@@ -91,6 +91,6 @@ TEST_CASE("options out of range are named") {
     options.samples = 0;
     CHECK(failure(options) == "path tracer option samples is 0; expected 1 to 1048576");
     options = optionsOf({16, 16});
-    options.settings.levels = 9;
-    CHECK(failure(options) == "settings.levels is 9; 1 to 8 was expected");
+    options.draft["levels"] = "9";
+    CHECK(failure(options) == "--levels is 9; 1 to 8 was expected");
 }

@@ -34,9 +34,8 @@ inline lab::CameraView cornerCamera() {
 
 inline ExplainOptions optionsOf(Extent2D extent = {64, 48}, int samples = 64, int bounces = 3) {
     ExplainOptions options;
-    auto settings = screenIndirectPreset("half-64", extent);
-    REQUIRE(settings);
-    options.settings = *settings;
+    options.draft["preset"] = "half-64";
+    options.extent = extent;
     options.samples = samples;
     options.bounces = bounces;
     return options;

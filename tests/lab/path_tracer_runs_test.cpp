@@ -150,6 +150,33 @@ TEST_CASE("progress never runs ahead of its end") {
     CHECK(last == 1.0);
 }
 
+TEST_CASE("the halves of a reference are independent estimates, and their mean is the whole") {
+    const PathTracerOptions options{.extent = {48, 36}, .bounces = 2, .samples = 128};
+    const PathTracedLight light = traced(cornell(), cornell().cameras[0], options);
+    double squares = 0.0, sum = 0.0, visible = 0.0;
+    for (size_t pixel = 0; pixel < light.standardError.data.size(); ++pixel) {
+        double deviation = 0.0, mean = 0.0;
+        for (size_t c = 0; c < 3; ++c) {
+            constexpr double weights[] = {0.2126, 0.7152, 0.0722};
+            const double a = double(light.indirectHalves[0].data[pixel * 3 + c]),
+                         b = double(light.indirectHalves[1].data[pixel * 3 + c]);
+            CHECK((a + b) / 2.0 == doctest::Approx(double(light.indirect.data[pixel * 3 + c])).epsilon(1e-6));
+            deviation += weights[c] * (a - b) / 2.0;
+            mean += weights[c] * (a + b) / 2.0;
+        }
+        squares += deviation * deviation;
+        sum += mean;
+        visible += mean > 0.0 ? 1.0 : 0.0;
+    }
+    // Half the difference of both is an estimate of the mean's standard error, of one degree of freedom a pixel; so is the
+    // spread of eight replicates. 1700 pixels leave each within some per cent.
+    CHECK(std::sqrt(squares / visible) / (sum / visible) ==
+          doctest::Approx(light.relativeError).epsilon(0.1));
+    for (size_t i = 0; i < light.firstBounce.data.size(); ++i)
+        CHECK(light.firstBounceHalves[0].data[i] + light.firstBounceHalves[1].data[i] ==
+              doctest::Approx(2.0 * double(light.firstBounce.data[i])).epsilon(1e-6));
+}
+
 TEST_CASE("options out of range are named") {
     CHECK(failureOf({.extent = {0, 8}}) == "path tracer option extent.width is 0; expected 1 to 16384");
     CHECK(failureOf({.bounces = -1}) == "path tracer option bounces is -1; expected 0 to 64");

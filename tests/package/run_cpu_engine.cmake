@@ -21,7 +21,7 @@ file(CREATE_LINK ${REBOUND} ${WORK}/engine/third_party/rebound SYMBOLIC)
 set(options -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -D CMAKE_BUILD_TYPE=${CONFIG})
 # One instruction set, hardly optimised, is enough to see what is built.
 list(APPEND options -D REBOUND_ISAS=baseline -D REBOUND_KERNEL_OPTIMIZATION=-O1
-    -D "CMAKE_CXX_FLAGS=-Wextra -include ${WORK}/engine/warning.h")
+    -D "CMAKE_CXX_FLAGS=-Wall -Wextra -include ${WORK}/engine/warning.h")
 if(WITHOUT_GPU_TOOLS)
     list(APPEND options -D REBOUND_GLSLANG= -D REBOUND_SPIRV_VAL=)
 endif()

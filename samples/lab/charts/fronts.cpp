@@ -18,7 +18,13 @@ bool isDrawable(const Point& point) {
 }
 
 ChartPoint chartPoint(const Point& point) {
-    return {point.name, point.technique, point.group(), point.times, point.metrics.relativeRmse, point.isPeer,
+    return {point.name,
+            point.technique,
+            point.group(),
+            point.times,
+            point.metrics.relativeRmse,
+            point.metrics.relativeRmseError,
+            point.isPeer,
             false};
 }
 
@@ -60,6 +66,11 @@ ChartPoint meanOf(const std::vector<const Point*>& points) {
     result.times.percentile10 = mean([](const Point& p) { return p.times.percentile10; });
     result.times.percentile90 = mean([](const Point& p) { return p.times.percentile90; });
     result.error = mean([](const Point& p) { return p.metrics.relativeRmse; });
+    // Of a geometric mean of independent errors.
+    double relative = 0.0;
+    for (const Point* p : points)
+        relative += std::pow(p->metrics.relativeRmseError / p->metrics.relativeRmse, 2.0);
+    result.standardError = result.error * std::sqrt(relative) / double(points.size());
     return result;
 }
 

@@ -16,7 +16,8 @@ struct ChartPoint {
     std::string technique;
     std::string group;
     Times times;
-    double error = 0.0; // relative RMSE
+    double error = 0.0;         // relative RMSE
+    double standardError = 0.0; // of it, by the truth's noise; NaN where that is not known
     bool isPeer = false;
     bool isOnFront = false; // of its group
 

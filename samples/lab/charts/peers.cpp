@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lab/charts/peers.hpp"
 
-#include "lab/charts/json_reader.hpp"
 #include "lab/files/file_bytes.hpp"
+#include "lab/files/json_reader.hpp"
 #include "lab/files/json_text.hpp"
 #include "lab/images/image_files.hpp"
+#include "lab/measure/run_values.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -12,6 +13,13 @@
 namespace rebound::charts {
 
 namespace {
+
+using lab::checkKeys;
+using lab::integerOf;
+using lab::member;
+using lab::refuseValue;
+using lab::shortText;
+using lab::textOf;
 
 namespace fs = std::filesystem;
 

@@ -50,6 +50,7 @@ metrics::CompareOptions ViewPictures::options() const {
     metrics::CompareOptions chosen;
     chosen.mask = &truth.visible;
     chosen.curve = curve;
+    if (!truth.halves[0].empty()) chosen.halves = metrics::TruthHalves{&truth.halves[0], &truth.halves[1]};
     return chosen;
 }
 

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "lab/charts/point.hpp"
 
-#include "lab/charts/json_reader.hpp"
+#include "lab/files/json_reader.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace rebound::charts {
 
 namespace {
+
+using lab::checkKeys;
+using lab::integerOf;
+using lab::member;
+using lab::numberOf;
+using lab::refuseValue;
+using lab::textOf;
 
 constexpr double longest = 1e9; // a frame that takes more is an error [ms]
 
@@ -22,6 +30,8 @@ constexpr NamedMetric metricNames[] = {{"mean", &ErrorMetrics::mean},
                                        {"truth_mean", &ErrorMetrics::truthMean},
                                        {"rmse", &ErrorMetrics::rmse},
                                        {"relative_rmse", &ErrorMetrics::relativeRmse},
+                                       {"relative_rmse_error", &ErrorMetrics::relativeRmseError},
+                                       {"truth_noise", &ErrorMetrics::truthNoise},
                                        {"rel_mse", &ErrorMetrics::relMse},
                                        {"smape", &ErrorMetrics::smape},
                                        {"bias", &ErrorMetrics::bias},
@@ -56,7 +66,10 @@ Json toJson(const Times& times) {
 
 Json toJson(const ErrorMetrics& metrics) {
     Json json = {{"pixels", metrics.pixels}, {"not_finite", metrics.notFinite}};
-    for (const NamedMetric& metric : metricNames) json[metric.name] = metrics.*metric.value;
+    for (const NamedMetric& metric : metricNames) {
+        const double value = metrics.*metric.value;
+        json[metric.name] = std::isnan(value) ? Json(nullptr) : Json(value); // as a file has it
+    }
     return json;
 }
 

@@ -2,8 +2,8 @@
 // One setting on one backend in one view: what it took, and how far it was from the truth.
 #pragma once
 
-#include "lab/measure/settings_json.hpp"
 #include "lab/metrics/metrics.hpp"
+#include "lab/techniques/technique.hpp"
 #include "rebound/extent.hpp"
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace rebound::charts {
 
-using measure::Json;
+using techniques::Json;
 
 // Of a frame [ms].
 struct Times {
@@ -61,7 +61,7 @@ struct Results {
     std::vector<Point> points;
 };
 
-inline constexpr int resultsFormat = 1; // of results.json and of points
+inline constexpr int resultsFormat = 2; // of results.json and of points
 
 Json toJson(const Times&);
 Json toJson(const metrics::ErrorMetrics&);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/charts/point_store.hpp"
 
-#include "lab/charts/json_reader.hpp"
 #include "lab/files/file_bytes.hpp"
+#include "lab/files/json_reader.hpp"
 #include "lab/files/json_text.hpp"
 #include "lab/files/output_file.hpp"
 
@@ -14,6 +14,10 @@
 namespace rebound::charts {
 
 namespace {
+
+using lab::integerOf;
+using lab::member;
+using lab::textOf;
 
 namespace fs = std::filesystem;
 

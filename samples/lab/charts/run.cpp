@@ -95,20 +95,20 @@ private:
     Result<> addPoint(const View& view, ChartBackend& backend, const Setting& setting,
                       ViewPictures& pictures) {
         const std::string title = view.label + " " + setting.name + " " + backend.label;
-        const auto plan = measure::planOf(setting.settings, measure::Spelling::keys);
-        if (!plan) return plan.error();
-        const PointKey key(keyOf(view, backend, setting, *plan), title);
+        const auto configured = setting.forCamera(view.camera, run.sweep.size);
+        if (!configured) return configured.error();
+        const PointKey key(keyOf(view, backend, *setting.technique, *configured), title);
         if (const auto known = store.find(key)) {
             results.points.push_back(*known);
             return {};
         }
         const lab::Progress progress = step(view.label + ", " + setting.name + ", " + backend.label, 1.0);
-        auto trial = measureAlone(view, backend, setting, progress);
+        auto trial = measureAlone(view, backend, *configured, progress);
         if (!trial) return trial.error();
         Point point;
-        point.technique = setting.technique;
+        point.technique = setting.technique->name;
         point.name = setting.name;
-        point.settings = measure::settingsToJson(setting.settings, setting.preset);
+        point.settings = configured->settings;
         point.view = view.label;
         point.backend = backend.label;
         point.device = backend.device;
@@ -145,21 +145,21 @@ private:
     }
 
     // Other charts on this machine wait meanwhile.
-    Result<Trial> measureAlone(const View& view, ChartBackend& backend, const Setting& setting,
-                               const lab::Progress& progress) {
+    Result<Trial> measureAlone(const View& view, ChartBackend& backend,
+                               const techniques::Configured& configured, const lab::Progress& progress) {
         const auto lock = FileLock::acquire(measuringLockFile(), FileLock::WhenTaken::wait);
         if (!lock) return lock.error();
-        return workshop.measure(view, setting, backend, progress);
+        return workshop.measure(view, configured, backend, progress);
     }
 
-    Json keyOf(const View& view, const ChartBackend& backend, const Setting& setting,
-               const Plan& plan) const {
-        Json settings = measure::settingsToJson(setting.settings, setting.preset);
+    Json keyOf(const View& view, const ChartBackend& backend, const techniques::Technique& technique,
+               const techniques::Configured& configured) const {
+        Json settings = configured.settings;
         settings.erase("preset"); // where it began does not matter
         return {{"version", REBOUND_VERSION},
-                {"technique", setting.technique},
+                {"technique", technique.name},
                 {"settings", settings},
-                {"plan", planHash(plan)},
+                {"plan", planHash(configured.plan)},
                 {"source", backend.source},
                 {"content", view.contentKey},
                 {"reference", toJson(run.sweep.reference)},

@@ -3,6 +3,7 @@
 #include "lab/charts/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rebound::charts {
 
@@ -48,11 +49,13 @@ std::string frontTable(const Chart& chart, const std::string& group) {
         if (point.isOnFront && point.group == group) front.push_back(&point);
     std::sort(front.begin(), front.end(),
               [](const ChartPoint* a, const ChartPoint* b) { return a->times.median < b->times.median; });
-    std::vector<Row> rows = {{"setting", "median [ms]", "10 % to 90 % [ms]", "relative RMSE"}};
+    std::vector<Row> rows = {
+        {"setting", "median [ms]", "10 % to 90 % [ms]", "relative RMSE", "its standard error"}};
     for (const ChartPoint* p : front)
         rows.push_back({p->name, formatted("%.3g", p->times.median),
                         formatted("%.3g to %.3g", p->times.percentile10, p->times.percentile90),
-                        formatted("%.4f", p->error)});
+                        formatted("%.4f", p->error),
+                        std::isnan(p->standardError) ? "-" : formatted("%.4f", p->standardError)});
     return markdownTable(rows);
 }
 

@@ -2,9 +2,10 @@
 #include "lab/charts/sweep.hpp"
 
 #include "lab/charts/embedded_text.hpp"
-#include "lab/charts/json_reader.hpp"
 #include "lab/files/file_bytes.hpp"
+#include "lab/files/json_reader.hpp"
 #include "lab/files/json_text.hpp"
+#include "lab/measure/run_values.hpp"
 
 #include <algorithm>
 #include <set>
@@ -13,89 +14,103 @@ namespace rebound::charts {
 
 namespace {
 
+using lab::arrayOf;
+using lab::checkKeys;
+using lab::integerOf;
+using lab::member;
+using lab::numberOf;
+using lab::refuseValue;
+using lab::textOf;
+
 using Value = nlohmann::json;
 
 constexpr size_t largestFile = size_t(1) << 20;
 constexpr size_t mostSettings = 10000;
 constexpr int mostFrames = 100000;
 
-int wholeNumber(const Value& value, const std::string& where) {
-    return integerOf(value, where, -1000000, 1000000); // planScreenIndirect() knows each setting's range
-}
-
-std::string samplesText(const Value& value, const std::string& where) {
-    return value.is_string() ? textOf(value, where) : std::to_string(wholeNumber(value, where));
-}
-
-std::string radiusText(const Value& value, const std::string& where) {
+// As a command line has it.
+std::string draftText(const Value& value, const std::string& where) {
     if (value.is_string()) return textOf(value, where);
+    if (!value.is_number()) refuseValue(where, value, "a text or a number");
+    if (value.is_number_integer()) return std::to_string(value.get<int64_t>());
     char text[32];
-    std::snprintf(text, sizeof text, "%.9g", numberOf(value, where, 1.0, 1024.0));
+    std::snprintf(text, sizeof text, "%.9g", value.get<double>());
     return text;
 }
 
-void assign(measure::SettingsDraft& draft, const std::string& key, const Value& value,
-            const std::string& where) {
-    if (key == "preset") draft.preset = textOf(value, where);
-    else if (key == "start") draft.start = textOf(value, where);
-    else if (key == "reduce") draft.reduction = textOf(value, where);
-    else if (key == "form_factor") draft.formFactor = textOf(value, where);
-    else if (key == "smooth") draft.smooth = textOf(value, where);
-    else if (key == "cover_screen") draft.coverScreen = textOf(value, where);
-    else if (key == "radius") draft.radius = radiusText(value, where);
-    else if (key == "levels") draft.levels = wholeNumber(value, where);
-    else if (key == "samples") draft.samples = samplesText(value, where);
-    else draft.minimumCosine = float(numberOf(value, where, 0.001, 1.0));
+const techniques::Option* findOption(const techniques::Technique& technique, const std::string& key) {
+    for (const techniques::Option& option : technique.options)
+        if (option.isSetting && techniques::spelled(option.name, techniques::Spelling::keys) == key)
+            return &option;
+    return nullptr;
+}
+
+std::vector<std::string> keysOf(const techniques::Technique& technique) {
+    std::vector<std::string> keys;
+    for (const techniques::Option& option : technique.options)
+        if (option.isSetting) keys.push_back(techniques::spelled(option.name, techniques::Spelling::keys));
+    return keys;
 }
 
 // Every combination of an object's arrays.
-std::vector<measure::SettingsDraft> draftsOf(const Value& object, const std::string& where) {
-    checkKeys(object, where,
-              {"preset", "start", "levels", "samples", "radius", "reduce", "form_factor", "minimum_cosine",
-               "cover_screen", "smooth"});
-    std::vector<measure::SettingsDraft> drafts = {{}};
+std::vector<techniques::Draft> draftsOf(const techniques::Technique& technique, const Value& object,
+                                        const std::string& where) {
+    checkKeys(object, where, keysOf(technique));
+    std::vector<techniques::Draft> drafts = {{}};
     for (const auto& [key, value] : object.items()) {
         const std::string place = where + "." + key;
         const Value values = value.is_array() ? arrayOf(value, place) : Value::array({value});
         if (drafts.size() * values.size() > mostSettings)
             lab::refuse(where + " has more than " + std::to_string(mostSettings) + " combinations");
-        std::vector<measure::SettingsDraft> combined;
-        for (const measure::SettingsDraft& draft : drafts)
+        std::vector<techniques::Draft> combined;
+        for (const techniques::Draft& draft : drafts)
             for (const Value& one : values) {
                 combined.push_back(draft);
-                assign(combined.back(), key, one, place);
+                combined.back()[findOption(technique, key)->name] = draftText(one, place);
             }
         drafts = std::move(combined);
     }
     return drafts;
 }
 
-Setting settingFrom(const measure::SettingsDraft& draft, Extent2D size, const std::string& where) {
-    Setting setting;
-    const auto settings = measure::settingsOf(draft, size, measure::Spelling::keys);
-    if (!settings) lab::refuse(where + "." + settings.error().message);
-    if (const auto plan = measure::planOf(*settings, measure::Spelling::keys); !plan)
-        lab::refuse(where + "." + plan.error().message);
-    setting.settings = *settings;
-    setting.preset = draft.preset;
-    setting.name = nameOfSettings(*settings);
-    return setting;
+Setting settingFrom(const techniques::Technique& technique, const techniques::Draft& draft, Extent2D size,
+                    const std::string& where) {
+    auto configured = technique.parse(draft, {size}, techniques::Spelling::keys);
+    if (!configured) lab::refuse(where + "." + configured.error().message);
+    const std::string name = configured->name;
+    return {&technique, draft, *std::move(configured), name};
 }
 
-std::vector<Setting> readSettings(const Value& techniques, Extent2D size) {
-    checkKeys(techniques, "techniques", {"screen_indirect"});
-    const std::string where = "techniques.screen_indirect";
-    const Value& list = arrayOf(member(techniques, "screen_indirect", where), where);
+std::vector<Setting> readSettings(const techniques::Technique& technique, const Value& list, Extent2D size) {
+    const std::string where = "techniques." + technique.name;
+    arrayOf(list, where);
     std::vector<Setting> settings;
     std::set<std::string> known;
     for (size_t i = 0; i < list.size(); ++i) {
         const std::string place = where + "[" + std::to_string(i) + "]";
-        for (const measure::SettingsDraft& draft : draftsOf(list[i], place))
-            if (Setting setting = settingFrom(draft, size, place); known.insert(setting.name).second)
+        for (const techniques::Draft& draft : draftsOf(technique, list[i], place))
+            if (Setting setting = settingFrom(technique, draft, size, place);
+                known.insert(setting.name).second)
                 settings.push_back(std::move(setting));
         if (settings.size() > mostSettings)
             lab::refuse(where + " has more than " + std::to_string(mostSettings) + " settings");
     }
+    return settings;
+}
+
+// In the order in which the lab knows the techniques.
+std::vector<Setting> readSettings(const Value& object, Extent2D size) {
+    std::vector<std::string> names;
+    for (const techniques::Technique& technique : techniques::all()) names.push_back(technique.name);
+    checkKeys(object, "techniques", names);
+    if (object.empty()) refuseValue("techniques", object, "an object with some of " + techniques::names());
+    std::vector<Setting> settings;
+    for (const techniques::Technique& technique : techniques::all())
+        if (object.contains(technique.name))
+            for (Setting& setting : readSettings(technique, object[technique.name], size)) {
+                if (object.size() > 1) setting.name.insert(0, technique.name + " ");
+                settings.push_back(std::move(setting));
+            }
     return settings;
 }
 
@@ -152,24 +167,10 @@ Sweep readSweepObject(const Value& root, std::optional<Extent2D> size) {
 
 } // namespace
 
-std::string nameOfSettings(const ScreenIndirectSettings& s) {
-    std::string name = std::string(measure::nameOf(s.start)) + "-" + measure::samplesText(s);
-    const auto usual = screenIndirectPreset("quarter-64", s.resolution);
-    if (s.levels != 4) name.append("-").append(std::to_string(s.levels));
-    if (s.reduction != Reduction::voting) name += std::string(" ") + measure::nameOf(s.reduction);
-    if (s.formFactor != FormFactor::pointToDisc)
-        name += std::string(" form factor ") + measure::nameOf(s.formFactor);
-    const auto number = [](float value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.6g", double(value));
-        return std::string(text);
-    };
-    if (usual && s.ringRadius != usual->ringRadius) name += " radius " + number(s.ringRadius);
-    if (usual && s.minimumCosine != usual->minimumCosine)
-        name += " minimum cosine " + number(s.minimumCosine);
-    if (!s.coverScreen) name += " not covering";
-    if (!s.smooth) name += " not smoothed";
-    return name;
+Result<techniques::Configured> Setting::forCamera(const lab::CameraView& camera, Extent2D size) const {
+    return technique->parse(draft,
+                            {size, camera.orthographic ? Projection::orthographic : Projection::perspective},
+                            techniques::Spelling::keys);
 }
 
 Result<Sweep> parseSweep(std::string_view text, const std::string& name, std::optional<Extent2D> size) {
@@ -192,8 +193,7 @@ Json toJson(const ReferenceChoice& reference) {
 Json toJson(const Sweep& sweep) {
     Json json = {{"techniques", Json::object()}, {"backends", sweep.backends}, {"scenes", Json::array()}};
     for (const Setting& setting : sweep.settings)
-        json["techniques"][setting.technique].push_back(
-            measure::settingsToJson(setting.settings, setting.preset));
+        json["techniques"][setting.technique->name].push_back(setting.configured.settings);
     for (const SceneChoice& choice : sweep.scenes) {
         Json scene = {{"scene", choice.scene}};
         if (!choice.viewFile.empty()) scene["view"] = choice.viewFile;

@@ -2,23 +2,28 @@
 // What a chart measures: techniques x settings x backends over scenes, as a JSON file says it.
 #pragma once
 
-#include "lab/measure/settings_draft.hpp"
-#include "lab/measure/settings_json.hpp"
+#include "lab/techniques/technique.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rebound::charts {
 
-using measure::Json;
+using techniques::Json;
 
 struct Setting {
-    std::string technique = "screen_indirect";
-    std::string name;                // from what it does: half-64, quarter-64-5 nearest; unique in a sweep
-    std::string preset;              // that it began with
-    ScreenIndirectSettings settings; // at the sweep's size; a view's camera says its projection
+    const techniques::Technique* technique;
+    techniques::Draft draft;
+    techniques::Configured configured; // at the sweep's size, for a perspective camera
+    std::string
+        name; // from what it does: half-64, quarter-64-5 nearest; where a sweep has several techniques, after
+              // the technique's; unique in a sweep
+
+    // For that camera.
+    Result<techniques::Configured> forCamera(const lab::CameraView&, Extent2D size) const;
 };
 
 struct SceneChoice {
@@ -54,8 +59,5 @@ std::string_view defaultSweepText();
 // As run, with what was left out.
 Json toJson(const Sweep&);
 Json toJson(const ReferenceChoice&);
-
-// What the settings do, in few words.
-std::string nameOfSettings(const ScreenIndirectSettings&);
 
 } // namespace rebound::charts

@@ -51,6 +51,7 @@ Result<Truth> LabWorkshop::truth(const View& view, const lab::Progress& progress
     if (!traced) return traced.error();
     Truth truth;
     truth.light = std::move(traced->indirect);
+    truth.halves = std::move(traced->indirectHalves);
     truth.visible = frame.depth;
     truth.direct = lab::outgoingRadiance(frame);
     truth.samples = traced->samples;
@@ -58,10 +59,10 @@ Result<Truth> LabWorkshop::truth(const View& view, const lab::Progress& progress
     return truth;
 }
 
-Result<Trial> LabWorkshop::measure(const View& view, const Setting& setting, ChartBackend& backend,
-                                   const lab::Progress& progress) {
+Result<Trial> LabWorkshop::measure(const View& view, const techniques::Configured& technique,
+                                   ChartBackend& backend, const lab::Progress& progress) {
     if (auto prepared = prepareFrame(view, {}); !prepared) return prepared.error();
-    auto pipeline = measure::FramePipeline::create(frame, setting.settings, *backend.backend, precision);
+    auto pipeline = measure::FramePipeline::create(frame, technique, *backend.backend, precision);
     if (!pipeline) return pipeline.error();
     auto measured = measure::measureFrames(*pipeline, {sweep.warmUp, sweep.frames, progress});
     if (!measured) return measured.error();

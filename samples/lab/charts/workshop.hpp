@@ -7,6 +7,7 @@
 #include "lab/runner/runner.hpp"
 #include "lab/scenes/scene.hpp"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -23,10 +24,11 @@ struct View {
 };
 
 struct Truth {
-    lab::Image light;   // E / pi of indirect light, albedo not in it [W m^-2 sr^-1]
-    lab::Image visible; // 1 channel: above 0 where there is a surface
-    lab::Image direct;  // emission + albedo * E / pi of direct light, for people
-    int samples = 0;    // paths a pixel
+    lab::Image light;                 // E / pi of indirect light, albedo not in it [W m^-2 sr^-1]
+    std::array<lab::Image, 2> halves; // independent, of which it is the mean; empty where there are none
+    lab::Image visible;               // 1 channel: above 0 where there is a surface
+    lab::Image direct;                // emission + albedo * E / pi of direct light, for people
+    int samples = 0;                  // paths a pixel
     double relativeError = 0.0;
 };
 
@@ -46,7 +48,8 @@ class Workshop {
 public:
     virtual ~Workshop() = default;
     virtual Result<Truth> truth(const View&, const lab::Progress&) = 0;
-    virtual Result<Trial> measure(const View&, const Setting&, ChartBackend&, const lab::Progress&) = 0;
+    virtual Result<Trial> measure(const View&, const techniques::Configured&, ChartBackend&,
+                                  const lab::Progress&) = 0;
 };
 
 // Scenes are rendered and path traced; references are kept in a folder. One view's frame is held at a time.
@@ -56,7 +59,8 @@ public:
         : sweep(what), precision(hostPrecision), references(std::move(referenceFolder)) {}
 
     Result<Truth> truth(const View&, const lab::Progress&) override;
-    Result<Trial> measure(const View&, const Setting&, ChartBackend&, const lab::Progress&) override;
+    Result<Trial> measure(const View&, const techniques::Configured&, ChartBackend&,
+                          const lab::Progress&) override;
 
 private:
     Result<> prepareFrame(const View&, const lab::Progress&);

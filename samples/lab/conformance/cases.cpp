@@ -4,7 +4,6 @@
 #include "lab/conformance/gbuffer.hpp"
 #include "lab/rays/frame.hpp"
 #include "lab/runner/texels.hpp"
-#include "lab/scenes/camera_matrices.hpp"
 #include "lab/scenes/scene_files.hpp"
 
 #include <algorithm>
@@ -92,8 +91,18 @@ void makeBlack(GBuffer& g, Random&) {
     std::fill(g.frame.radiance.data.begin(), g.frame.radiance.data.end(), 0.0f);
 }
 
+void scaleLengths(lab::Frame& frame, float size) {
+    for (float& z : frame.depth.data) z *= size;
+    frame.camera.position *= size;
+    frame.camera.target *= size;
+    frame.camera.orthographicHeight *= size;
+    frame.camera.nearPlane *= size;
+    frame.camera.farPlane *= size;
+}
+
 // size: the scene's lengths are multiplied by it.
-Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D extent, float size = 1.0f) {
+Result<Case> sceneCase(const std::string& name, const techniques::Technique& technique,
+                       const techniques::Draft& draft, Extent2D extent, float size = 1.0f) {
     auto scene = lab::loadScene(name);
     if (!scene) return scene.error();
     auto view = lab::findCamera(*scene, "");
@@ -103,16 +112,23 @@ Result<Case> sceneCase(const std::string& name, const char* preset, Extent2D ext
     options.lightSamples = 4; // noise is as good a test as its absence
     auto frame = lab::renderFrame(*scene, *view, options);
     if (!frame) return frame.error();
-    auto settings = screenIndirectPreset(preset, extent);
-    if (!settings) return settings.error();
+    auto configured = technique.parse(draft, techniques::viewOf(*frame), techniques::Spelling::options);
+    if (!configured) return configured.error();
     const lab::Image outgoing = lab::outgoingRadiance(*frame);
-    for (float& z : frame->depth.data) z *= size;
-    Camera camera = lab::cameraMatrices(*view, extent);
-    camera.view[3] = glm::vec4(glm::vec3(camera.view[3]) * size, 1.0f);
-    camera.projection[3][2] *= size; // both planes
-    return caseOf(
-        {*settings, {camera, frame->depth, frame->normal, outgoing, frame->albedo, outgoing, {}, {}}},
-        Precision::half);
+    scaleLengths(*frame, size);
+    auto inputs = configured->inputs(*frame, outgoing);
+    if (!inputs) return inputs.error();
+    float largestRadiance = 0;
+    for (const float value : outgoing.data) largestRadiance = std::max(largestRadiance, value);
+    auto tolerances = screenIndirectTolerances(configured->plan, largestRadiance);
+    return Case{std::move(configured->plan), *std::move(inputs), Precision::half, std::move(tolerances)};
+}
+
+std::string toText(const techniques::Draft& draft) {
+    std::string text;
+    for (const auto& [option, value] : draft)
+        text += " " + (option == "preset" ? value : option + " " + value);
+    return text;
 }
 
 } // namespace
@@ -154,17 +170,20 @@ std::vector<NamedCase> hardCases() {
             hardCase("point factor in a corner", usual, corner, byPoints)};
 }
 
-std::vector<NamedCase> sceneCases() {
+std::vector<NamedCase> sceneCases(const techniques::Technique& technique) {
     constexpr Extent2D extent{320, 180};
     std::vector<NamedCase> cases;
-    for (const char* scene : {"builtin:atrium", "builtin:cornell"})
-        for (const char* preset : {"quarter-64", "half-256-5"})
-            cases.push_back(
-                {std::string(scene) + " " + preset, [=] { return sceneCase(scene, preset, extent); }});
+    for (const std::string scene : {"builtin:atrium", "builtin:cornell"})
+        for (const techniques::Draft& draft : technique.examples)
+            cases.push_back({scene + toText(draft), [scene, &technique, draft] {
+                                 return sceneCase(scene, technique, draft, extent);
+                             }});
     // The room is 5.5 m wide.
     for (const auto& [name, size] : {std::pair{"0.1 m", 0.1f / 5.5f}, std::pair{"10 km", 1e4f / 5.5f}})
-        cases.push_back({std::string("builtin:cornell quarter-64, ") + name,
-                         [size = size] { return sceneCase("builtin:cornell", "quarter-64", extent, size); }});
+        cases.push_back({std::string("builtin:cornell, ") + name, [size = size, &technique] {
+                             return sceneCase("builtin:cornell", technique, technique.examples[0], extent,
+                                              size);
+                         }});
     return cases;
 }
 

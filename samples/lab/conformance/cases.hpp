@@ -4,6 +4,7 @@
 
 #include "lab/conformance/tolerances.hpp"
 #include "lab/runner/runner.hpp"
+#include "lab/techniques/technique.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
 #include <cstdint>
@@ -27,11 +28,11 @@ struct NamedCase {
     std::function<Result<Case>()> make;
 };
 
-// Random settings, conventions and G-buffers: planes in patches, with sky between them.
+// Of screen-space indirect light: random settings, conventions and G-buffers, planes in patches with sky between them.
 std::vector<NamedCase> randomCases(int count, uint64_t seed);
-// Sizes, scales and values at the ends of what is allowed, and beyond.
+// Of screen-space indirect light: sizes, scales and values at the ends of what is allowed, and beyond.
 std::vector<NamedCase> hardCases();
-// The lab's scenes.
-std::vector<NamedCase> sceneCases();
+// The lab's scenes under the examples of a technique.
+std::vector<NamedCase> sceneCases(const techniques::Technique& = techniques::all().front());
 
 } // namespace rebound::conformance

@@ -47,8 +47,7 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
     o.out = program.out;
     std::string size = "1280x720";
     CLI::App app(program.description, program.name);
-    app.add_option("scene", o.scene, "a glTF 2.0 file, or builtin:atrium or builtin:cornell")
-        ->option_text("SCENE");
+    app.add_option("scene", o.scene, "a glTF 2.0 file, or " + lab::builtinSceneList())->option_text("SCENE");
     app.add_option("--view", o.view, "a view file: cameras and lights (default: view.json beside the scene)");
     app.add_option("--camera", o.camera, "a camera's name (default: the first)");
     app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");

@@ -3,7 +3,6 @@
 
 #include "lab/explain/screen_estimates.hpp"
 #include "lab/runner/runner.hpp"
-#include "lab/scenes/camera_matrices.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,18 +21,10 @@ public:
         radiance = lab::outgoingRadiance(frame);
     }
 
-    Result<Image> run(ScreenIndirectSettings settings) {
-        settings.writeIndirect = true;
-        settings.compose = false;
-        settings.onlyLevel = {};
-        auto plan = planScreenIndirect(settings);
-        if (!plan) return plan.error();
-        const Camera camera = lab::cameraMatrices(frame.camera, settings.resolution);
-        auto inputs = screenIndirectInputs(
-            settings,
-            ScreenIndirectFrame<Image>{camera, frame.depth, frame.normal, radiance, {}, {}, {}, {}});
+    Result<Image> run(const techniques::Configured& technique) {
+        auto inputs = technique.inputs(frame, radiance);
         if (!inputs) return inputs.error();
-        auto prepared = backend.prepare(*plan, *inputs, {runner::Precision::single, false});
+        auto prepared = backend.prepare(technique.plan, *inputs, {runner::Precision::single, false});
         if (!prepared) return prepared.error();
         if (auto ran = (*prepared)->run(); !ran) return ran.error();
         return (*prepared)->read("indirect");
@@ -95,59 +86,55 @@ double noiseOf(const Image& standardError, const Image& depth) {
 
 // A result on the way from the technique to the truth, and what was switched to get there.
 struct Step {
-    const char* name;
-    const char* meaning;
+    std::string name;
+    std::string meaning;
     Image image;
 };
 
 struct Runs {
-    Image result, allSamples, startSum, fullSum;
+    Image result;
+    std::vector<Step> steps; // the technique's own approximations
 };
 
 // The part of the progress that runs of the technique stand for; sums over all pixels of large pictures take longer.
 constexpr double techniqueShare = 0.2;
 
 Result<Runs> runTechnique(const lab::Frame& frame, const ExplainOptions& options) {
+    const techniques::View view = techniques::viewOf(frame);
+    const auto configured = options.technique->parse(options.draft, view, techniques::Spelling::options);
+    if (!configured) return configured.error();
+    std::vector<techniques::Ablation> ablations;
+    if (options.technique->ablations) {
+        auto made = options.technique->ablations(options.draft, view);
+        if (!made) return made.error();
+        ablations = *std::move(made);
+    }
     runner::BackendChoice cpu;
     cpu.threads = options.threads;
     auto backend = runner::createBackend(cpu);
     if (!backend) return backend.error();
     TechniqueRuns technique(frame, **backend);
-    ScreenIndirectSettings given = options.settings;
-    given.conventions.projection =
-        frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    ScreenIndirectSettings allSamples = given;
-    allSamples.samplesPerLevel = wholeRings;
-    ScreenIndirectSettings oneLevel = allSamples;
-    oneLevel.levels = 1;
-    oneLevel.coverScreen = true;
-    ScreenIndirectSettings full = oneLevel;
-    full.start = StartResolution::full;
-    full.smooth = false;
-    Runs runs;
-    int done = 0;
-    for (auto [image, settings] : {std::pair{&runs.result, given}, std::pair{&runs.allSamples, allSamples},
-                                   std::pair{&runs.startSum, oneLevel}, std::pair{&runs.fullSum, full}}) {
-        auto run = technique.run(settings);
-        if (!run) return run.error();
-        *image = *std::move(run);
-        if (options.progress) options.progress(techniqueShare * double(++done) / 4.0);
+    const double total = double(ablations.size() + 1);
+    const auto progress = [&](size_t done) {
+        if (options.progress) options.progress(techniqueShare * double(done) / total);
+    };
+    auto result = technique.run(*configured);
+    if (!result) return result.error();
+    progress(1);
+    Runs runs{*std::move(result), {}};
+    for (const techniques::Ablation& ablation : ablations) {
+        auto image = technique.run(ablation.without);
+        if (!image) return image.error();
+        runs.steps.push_back({ablation.name, ablation.meaning, *std::move(image)});
+        progress(runs.steps.size() + 1);
     }
     return runs;
 }
 
-Explanation assemble(Runs runs, ScreenEstimates screen, const Image& depth) {
-    std::vector<Step> steps;
-    steps.push_back(
-        {"too few samples", "a level's samples -> every texel of its ring", std::move(runs.allSamples)});
-    steps.push_back({"hierarchy", "levels -> the sum over every texel of the start resolution",
-                     std::move(runs.startSum)});
-    steps.push_back({"start resolution",
-                     "start resolution, smoothing and upsampling -> every pixel's own sum over every pixel",
-                     std::move(runs.fullSum)});
-    steps.push_back({"disc form factor",
-                     "discs at pixel centres -> the exact integral over what the screen shows",
-                     std::move(screen.withoutVisibility)});
+Explanation assemble(Runs runs, const techniques::LastApproximation& last, ScreenEstimates screen,
+                     const Image& depth) {
+    std::vector<Step> steps = std::move(runs.steps);
+    steps.push_back({last.name, last.meaning, std::move(screen.withoutVisibility)});
     steps.push_back({"missing visibility", "whatever lies in between -> only senders that the receiver sees",
                      std::move(screen.withVisibility)});
     steps.push_back({"hidden senders",
@@ -188,7 +175,7 @@ Explanation assemble(Runs runs, ScreenEstimates screen, const Image& depth) {
 
 Result<Explanation> explainError(const lab::Scene& scene, const lab::CameraView& camera,
                                  const ExplainOptions& options) {
-    const Extent2D extent = options.settings.resolution;
+    const Extent2D extent = options.extent;
     const auto frame =
         lab::renderFrame(scene, camera, {.extent = extent, .lightSamples = 64, .threads = options.threads});
     if (!frame) return frame.error();
@@ -200,7 +187,7 @@ Result<Explanation> explainError(const lab::Scene& scene, const lab::CameraView&
     auto screen = estimateFromScreen(scene, camera,
                                      {extent, options.bounces, options.samples, options.threads, progress});
     if (!screen) return screen.error();
-    return assemble(*std::move(runs), *std::move(screen), frame->depth);
+    return assemble(*std::move(runs), options.technique->lastApproximation, *std::move(screen), frame->depth);
 }
 
 } // namespace rebound::explain

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How much of screen-space indirect light's error has which cause, by switching one after the other to truth.
+// How much of a technique's error has which cause, by switching one after the other to truth.
 #pragma once
 
 #include "lab/light/path_tracer.hpp"
-#include "rebound/techniques/screen_indirect.hpp"
+#include "lab/techniques/technique.hpp"
 
 #include <string>
 #include <vector>
@@ -11,8 +11,9 @@
 namespace rebound::explain {
 
 struct ExplainOptions {
-    ScreenIndirectSettings
-        settings;      // its resolution is the pictures' size; outputs and onlyLevel are not looked at
+    const techniques::Technique* technique = &techniques::all().front();
+    techniques::Draft draft; // of its settings
+    Extent2D extent{320, 180};
     int bounces = 8;   // of the truth, 1 to 64
     int samples = 256; // paths a pixel for the truth and for what the screen shows of it
     int threads = 0;   // 0: one a core

@@ -15,7 +15,8 @@ Result<Scene> loadGltf(const std::filesystem::path& file, const GltfOptions& opt
         const tinygltf::Model model = readGltfFile(file);
         std::vector<NodePose> poses = restPose(model);
         applyAnimation(model, options, poses);
-        const std::vector<glm::dmat4> world = worldMatrices(model, poses);
+        std::vector<glm::dmat4> world = worldMatrices(model, poses);
+        moveNodes(model, options.moved, world);
         const std::vector<int> nodes = sceneNodes(model);
 
         Scene scene;

@@ -119,6 +119,22 @@ std::vector<glm::dmat4> worldMatrices(const tinygltf::Model& model, const std::v
     return world;
 }
 
+void moveNodes(const tinygltf::Model& model, const std::map<std::string, glm::mat4>& moved,
+               std::vector<glm::dmat4>& world) {
+    for (const auto& [name, place] : moved) {
+        std::vector<int> roots;
+        std::string known;
+        for (size_t i = 0; i < model.nodes.size(); ++i) {
+            if (model.nodes[i].name == name) roots.push_back(static_cast<int>(i));
+            known += (known.empty() ? "'" : ", '") + model.nodes[i].name + "'";
+        }
+        if (roots.empty())
+            refuse("it has no node '" + name + "' to move; its nodes are " + known, ErrorCode::notFound);
+        for (const int node : withDescendants(model, roots))
+            world[static_cast<size_t>(node)] = glm::dmat4(place) * world[static_cast<size_t>(node)];
+    }
+}
+
 std::vector<int> sceneNodes(const tinygltf::Model& model) {
     const std::vector<int> parents = findParents(model);
     if (model.scenes.empty()) return withDescendants(model, rootNodes(parents));

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <tiny_gltf.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ void applyAnimation(const tinygltf::Model&, const GltfOptions&, std::vector<Node
 
 // From each node's space to the world's. Refuses hierarchies that are not trees.
 std::vector<glm::dmat4> worldMatrices(const tinygltf::Model&, const std::vector<NodePose>&);
+
+// Moves the named nodes, and all that is below each, by transforms in world space. Refuses a name that no node has.
+void moveNodes(const tinygltf::Model&, const std::map<std::string, glm::mat4>&, std::vector<glm::dmat4>& world);
 
 // The default scene's nodes, parents before children; of a file without scenes, all nodes.
 std::vector<int> sceneNodes(const tinygltf::Model&);

@@ -13,13 +13,14 @@ namespace rebound::lab {
 namespace {
 
 constexpr size_t firstSum = 1 + size_t(pathTracerReplicates);
-constexpr size_t quantityStride = 6; // sum and exact part, three channels each
+constexpr size_t quantityStride = 9; // two sums and the exact part, three channels each
+constexpr int halfReplicates = pathTracerReplicates / 2;
 
 size_t sumOf(PathSums::Quantity quantity) { return firstSum + size_t(quantity) * quantityStride; }
 
 // What stands before the values in saved bytes.
 struct Header {
-    char format[16] = "rebound paths 1";
+    char format[16] = "rebound paths 2";
     char key[32] = {};
     char hash[32] = {}; // of the values
     uint64_t samples = 0;
@@ -38,15 +39,15 @@ std::string hashOf(std::span<const double> values) {
 
 } // namespace
 
-void PathSums::Pixel::add(Quantity quantity, glm::vec3 value) const {
-    double* sum = values + sumOf(quantity);
+void PathSums::Pixel::add(Quantity quantity, int replicate, glm::vec3 value) const {
+    double* sum = values + sumOf(quantity) + (replicate < halfReplicates ? 0 : 3);
     sum[0] += double(value.x);
     sum[1] += double(value.y);
     sum[2] += double(value.z);
 }
 
 void PathSums::Pixel::setExact(Quantity quantity, glm::vec3 value) const {
-    double* exact = values + sumOf(quantity) + 3;
+    double* exact = values + sumOf(quantity) + 6;
     exact[0] = double(value.x);
     exact[1] = double(value.y);
     exact[2] = double(value.z);
@@ -59,7 +60,14 @@ PathSums::PathSums(Extent2D size, bool glossyToo)
 glm::vec3 PathSums::mean(size_t pixel, Quantity quantity, int samples) const {
     const double* sum = &values[pixel * stride + sumOf(quantity)];
     const double share = 1.0 / (double(samples) * pathTracerReplicates);
-    return {float(sum[0] * share + sum[3]), float(sum[1] * share + sum[4]), float(sum[2] * share + sum[5])};
+    const auto channel = [&](size_t c) { return float((sum[c] + sum[3 + c]) * share + sum[6 + c]); };
+    return {channel(0), channel(1), channel(2)};
+}
+
+glm::vec3 PathSums::halfMean(size_t pixel, Quantity quantity, size_t half, int samples) const {
+    const double* sum = &values[pixel * stride + sumOf(quantity) + 3 * half];
+    const double share = 1.0 / (double(samples) * halfReplicates);
+    return {float(sum[0] * share), float(sum[1] * share), float(sum[2] * share)};
 }
 
 double PathSums::standardError(size_t pixel, int samples) const {
@@ -74,6 +82,8 @@ double PathSums::standardError(size_t pixel, int samples) const {
 PathTracedLight PathSums::light(int samples) const {
     PathTracedLight light;
     light.direct = light.firstBounce = light.indirect = Image(extent, 3);
+    for (size_t half = 0; half < 2; ++half)
+        light.firstBounceHalves[half] = light.indirectHalves[half] = Image(extent, 3);
     light.standardError = Image(extent, 1);
     if (hasGlossy) light.glossy = Image(extent, 3);
     for (size_t pixel = 0; pixel < values.size() / stride; ++pixel) {
@@ -81,6 +91,10 @@ PathTracedLight PathSums::light(int samples) const {
         store(light.firstBounce, pixel, mean(pixel, firstBounce, samples));
         store(light.indirect, pixel, mean(pixel, indirect, samples));
         if (hasGlossy) store(light.glossy, pixel, mean(pixel, glossy, samples));
+        for (size_t half = 0; half < 2; ++half) {
+            store(light.firstBounceHalves[half], pixel, halfMean(pixel, firstBounce, half, samples));
+            store(light.indirectHalves[half], pixel, halfMean(pixel, indirect, half, samples));
+        }
         light.standardError.data[pixel] = float(standardError(pixel, samples));
     }
     return light;

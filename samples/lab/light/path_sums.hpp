@@ -20,7 +20,7 @@ public:
     class Pixel {
     public:
         void show() const { *values = 1.0; }
-        void add(Quantity, glm::vec3) const;
+        void add(Quantity, int replicate, glm::vec3) const;
         // Of direct and glossy: what every path brings, exactly; counted once.
         void setExact(Quantity, glm::vec3) const;
         void addToReplicate(int replicate, float luminance) const {
@@ -49,13 +49,15 @@ public:
 private:
     size_t index(int x, int y) const { return (size_t(y) * size_t(extent.width) + size_t(x)) * stride; }
     glm::vec3 mean(size_t pixel, Quantity, int samples) const;
+    // Of the half of the replicates that begins with this one, without exact parts.
+    glm::vec3 halfMean(size_t pixel, Quantity, size_t half, int samples) const;
     double standardError(size_t pixel, int samples) const;
 
     Extent2D extent;
     bool hasGlossy;
     size_t stride;
-    // A pixel: whether it is visible, replicates' luminance, then for each quantity its sum and its exact
-    // part.
+    // A pixel: whether it is visible, replicates' luminance, then for each quantity its sums over the first and over the
+    // second half of the replicates, and its exact part.
     std::vector<double> values;
 };
 

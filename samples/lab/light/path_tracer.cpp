@@ -34,8 +34,8 @@ struct DiffuseRecorder {
     int measuredFrom; // bounces whose luminance is told apart by replicate
 
     void add(int bounces, glm::vec3 radiance) {
-        pixel.add(bounces == 0 ? PathSums::direct : PathSums::indirect, radiance);
-        if (bounces == 1) pixel.add(PathSums::firstBounce, radiance);
+        pixel.add(bounces == 0 ? PathSums::direct : PathSums::indirect, replicate, radiance);
+        if (bounces == 1) pixel.add(PathSums::firstBounce, replicate, radiance);
         if (bounces >= measuredFrom) pixel.addToReplicate(replicate, luminance(radiance));
     }
     bool enter(int, const Reflector&) { return true; }
@@ -43,8 +43,9 @@ struct DiffuseRecorder {
 
 struct GlossyRecorder {
     PathSums::Pixel pixel;
+    int replicate;
 
-    void add(int, glm::vec3 radiance) { pixel.add(PathSums::glossy, radiance); }
+    void add(int, glm::vec3 radiance) { pixel.add(PathSums::glossy, replicate, radiance); }
     bool enter(int, const Reflector&) { return true; }
 };
 
@@ -122,7 +123,7 @@ struct PathTracer::State {
 
     void addGlossy(PathSums::Pixel pixel, const Reflector& start, uint32_t seed, int count) {
         if (done == 0) pixel.setExact(PathSums::glossy, light.fromPoints(start));
-        addPaths(start, seed, count, [&](int) { return GlossyRecorder{pixel}; });
+        addPaths(start, seed, count, [&](int replicate) { return GlossyRecorder{pixel, replicate}; });
     }
 
     Image diffuseAlbedo() const {

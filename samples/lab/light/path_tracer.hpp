@@ -7,6 +7,7 @@
 #include "lab/rays/frame.hpp"
 #include "lab/scenes/scene.hpp"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -51,7 +52,10 @@ struct PathTracedLight {
     Image direct;      // E / pi of light straight from the lights, the environment and emissive surfaces
     Image firstBounce; // E / pi of light that met exactly one surface in between
     Image indirect;    // E / pi of light that met 1 to `bounces` surfaces in between
-    Image albedo;      // diffuse reflectance under the options' glossy model
+    // Estimates of the same by the first and by the second half of the paths, which are independent; the mean of both is
+    // the estimate above.
+    std::array<Image, 2> firstBounceHalves, indirectHalves;
+    Image albedo; // diffuse reflectance under the options' glossy model
     Image glossy; // radiance by specular reflection at the visible point, whatever came before; empty without
     Image standardError; // 1 channel: of the luminance of indirect; of direct with 0 bounces
     int samples = 0;     // paths a pixel
@@ -85,7 +89,7 @@ public:
     // The scene that the paths run through; what observes its rays sees every one of them.
     EmbreeScene& embreeScene();
 
-    // All that has been added up, about 220 bytes a pixel.
+    // All that has been added up, about 290 bytes a pixel.
     std::vector<std::byte> save() const;
     // Takes up what was saved by a tracer of the same key. Fails, and changes nothing, where the bytes are
     // not that.

@@ -2,7 +2,6 @@
 #include "lab/measure/frame_pipeline.hpp"
 
 #include "lab/runner/texels.hpp"
-#include "lab/scenes/camera_matrices.hpp"
 
 #include <algorithm>
 
@@ -10,7 +9,7 @@ namespace rebound::measure {
 
 namespace {
 
-// The technique takes radiance up to half's largest value. Returns the number of pixels that were above.
+// Techniques take radiance up to half's largest value. Returns the number of pixels that were above.
 size_t limitToRange(lab::Image& image) {
     size_t count = 0;
     for (size_t i = 0; i < image.data.size(); i += 3) {
@@ -22,27 +21,36 @@ size_t limitToRange(lab::Image& image) {
 
 } // namespace
 
-Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, const ScreenIndirectSettings& requested,
+Result<runner::PlanInputs> FramePipeline::inputsOf(const lab::Frame& frame) {
+    outgoing = lab::outgoingRadiance(frame);
+    limited = limitToRange(outgoing);
+    return configured.inputs(frame, outgoing);
+}
+
+// As the technique got it.
+void FramePipeline::roundOutgoing() {
+    if (precision == runner::Precision::half) runner::roundTo(Format::rgba16f, outgoing);
+}
+
+Result<FramePipeline> FramePipeline::create(const lab::Frame& frame, techniques::Configured technique,
                                             runner::Backend& backend, runner::Precision precision) {
     FramePipeline pipeline;
-    pipeline.settings_ = requested;
-    pipeline.settings_.conventions.projection =
-        frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
-    auto plan = planScreenIndirect(pipeline.settings_);
-    if (!plan) return plan.error();
-    pipeline.outgoing = lab::outgoingRadiance(frame);
-    pipeline.limited = limitToRange(pipeline.outgoing);
-    const Camera camera = lab::cameraMatrices(frame.camera, pipeline.settings_.resolution);
-    auto inputs = screenIndirectInputs(
-        pipeline.settings_,
-        ScreenIndirectFrame<lab::Image>{
-            camera, frame.depth, frame.normal, pipeline.outgoing, frame.albedo, pipeline.outgoing, {}, {}});
+    pipeline.configured = std::move(technique);
+    pipeline.precision = precision;
+    auto inputs = pipeline.inputsOf(frame);
     if (!inputs) return inputs.error();
-    auto prepared = backend.prepare(*plan, *inputs, {precision, false});
+    auto prepared = backend.prepare(pipeline.configured.plan, *inputs, {precision, false});
     if (!prepared) return prepared.error();
     pipeline.prepared = *std::move(prepared);
-    if (precision == runner::Precision::half) runner::roundTo(Format::rgba16f, pipeline.outgoing);
+    pipeline.roundOutgoing();
     return pipeline;
+}
+
+Result<> FramePipeline::setFrame(const lab::Frame& frame) {
+    auto inputs = inputsOf(frame);
+    if (!inputs) return inputs.error();
+    roundOutgoing();
+    return prepared->setInputs(*inputs);
 }
 
 } // namespace rebound::measure

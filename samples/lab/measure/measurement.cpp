@@ -28,18 +28,36 @@ double Series::percentile(double share) const {
     return sorted[below] + (place - double(below)) * (sorted[above] - sorted[below]);
 }
 
-Result<Measurement> measureFrames(FramePipeline& pipeline, const MeasureOptions& options) {
-    Measurement measurement;
+Result<std::vector<Measurement>> measureInTurns(const std::vector<FramePipeline*>& pipelines,
+                                                const MeasureOptions& options) {
+    std::vector<Measurement> measurements(pipelines.size());
     const int total = options.warmUp + options.frames;
     for (int i = 0; i < total; ++i) {
-        const auto milliseconds = pipeline.run();
-        if (!milliseconds) return milliseconds.error();
-        if (i >= options.warmUp) add(measurement, pipeline.timings(), *milliseconds);
-        if (const auto recording = pipeline.recordingTime(); recording && i >= options.warmUp)
-            measurement.recording.milliseconds.push_back(*recording);
+        for (size_t which = 0; which < pipelines.size(); ++which) {
+            FramePipeline& pipeline = *pipelines[which];
+            const auto milliseconds = pipeline.run();
+            if (!milliseconds) return milliseconds.error();
+            if (i < options.warmUp) continue;
+            add(measurements[which], pipeline.timings(), *milliseconds);
+            if (const auto recording = pipeline.recordingTime())
+                measurements[which].recording.milliseconds.push_back(*recording);
+        }
         if (options.progress) options.progress(double(i + 1) / double(total));
     }
-    return measurement;
+    return measurements;
+}
+
+Result<Measurement> measureFrames(FramePipeline& pipeline, const MeasureOptions& options) {
+    auto measurements = measureInTurns({&pipeline}, options);
+    if (!measurements) return measurements.error();
+    return std::move(measurements->front());
+}
+
+double ratioOf(const Measurement& measurement, const Measurement& other) {
+    Series ratios{"ratio", {}};
+    for (size_t i = 0; i < measurement.frame.milliseconds.size(); ++i)
+        ratios.milliseconds.push_back(measurement.frame.milliseconds[i] / other.frame.milliseconds[i]);
+    return ratios.median();
 }
 
 } // namespace rebound::measure

@@ -35,4 +35,11 @@ struct MeasureOptions {
 
 Result<Measurement> measureFrames(FramePipeline&, const MeasureOptions&);
 
+// Several in turns, a frame of each after the other, so that what slows the machine for a while slows all of them.
+// Precondition: there is at least one.
+Result<std::vector<Measurement>> measureInTurns(const std::vector<FramePipeline*>&, const MeasureOptions&);
+
+// How much longer than the other's a frame took, at the median of frames of the same turn.
+double ratioOf(const Measurement&, const Measurement& other);
+
 } // namespace rebound::measure

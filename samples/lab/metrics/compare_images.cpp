@@ -28,10 +28,24 @@ Result<> checkOptions(const CompareOptions& options) {
     if (options.curve && !(options.curve->exposure > 0.0f && std::isfinite(options.curve->exposure)))
         return invalidArgument("the exposure is " + std::to_string(options.curve->exposure) +
                                "; a finite number above 0 was expected");
+    if (options.truthNoise && !(*options.truthNoise >= 0.0 && *options.truthNoise <= 10.0))
+        return invalidArgument("truthNoise is " + std::to_string(*options.truthNoise) +
+                               "; 0 to 10 was expected");
+    return {};
+}
+
+Result<> checkHalves(const lab::Image& truth, const CompareOptions& options) {
+    if (!options.halves) return {};
+    for (const lab::Image* half : {options.halves->a, options.halves->b})
+        if (!(half->extent() == truth.extent()) || half->channels != truth.channels)
+            return Error{
+                ErrorCode::invalidData,
+                "the truth's halves are not of its size and channels; two pictures like it were expected"};
     return {};
 }
 
 Result<ErrorMetrics> measure(const lab::Image& test, const lab::Image& truth, const CompareOptions& options) {
+    if (auto fit = checkHalves(truth, options); !fit) return fit.error();
     const auto pixels = classifyPixels(test, truth, options.mask);
     if (!pixels) return pixels.error();
     ErrorMetrics metrics;
@@ -40,7 +54,7 @@ Result<ErrorMetrics> measure(const lab::Image& test, const lab::Image& truth, co
     metrics.notFinite = pixels->notFinite;
     metrics.notFiniteInTest = pixels->notFiniteInTest;
     metrics.notFiniteInTruth = pixels->notFiniteInTruth;
-    measurePointwise(test, truth, *pixels, metrics);
+    measurePointwise(test, truth, options, *pixels, metrics);
     const lab::ToneCurve curve = options.curve ? *options.curve : lab::automaticToneCurve(truth);
     const DisplayedPair shown = displayedPair(test, truth, *pixels, curve);
     metrics.ssim = meanOf(ssimMap(lumaOf(shown.test), lumaOf(shown.truth)), *pixels);

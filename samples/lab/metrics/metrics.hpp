@@ -7,9 +7,16 @@
 #include "rebound/result.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace rebound::metrics {
+
+// The truth as the mean of two estimates of the same light, whose noise is independent.
+struct TruthHalves {
+    const lab::Image* a = nullptr;
+    const lab::Image* b = nullptr;
+};
 
 struct CompareOptions {
     const lab::Image* mask = nullptr; // 1 channel of the same size: only pixels where it is above 0 count
@@ -17,6 +24,10 @@ struct CompareOptions {
     std::optional<lab::ToneCurve> curve;
     // Of FLIP's observer, 1 to 1000: 0.7 m from a 3840 pixels, 0.7 m wide monitor.
     double pixelsPerDegree = 67.0;
+    // How RMSE is freed of the truth's noise; with neither, it is not. Both pictures of halves have the truth's size and
+    // channels, and the truth is their mean.
+    std::optional<TruthHalves> halves;
+    std::optional<double> truthNoise; // its standard deviation over all values, over their mean, 0 to 10
 };
 
 // Values that are not finite in either picture are left out with their pixel, and counted. Means are over all
@@ -28,10 +39,16 @@ struct ErrorMetrics {
     size_t notFinite = 0;       // not masked out, but left out, as one of their values was not finite
     size_t notFiniteInTest = 0; // those of them that are so in this picture, whatever the other one has
     size_t notFiniteInTruth = 0;
-    double mean = 0.0;         // of t
-    double truthMean = 0.0;    // of r
-    double rmse = 0.0;         // sqrt(mean((t - r)^2))
+    double mean = 0.0;      // of t
+    double truthMean = 0.0; // of r
+    // sqrt(mean((t - r)^2)); with halves a and b of the truth, sqrt(mean((t - a) (t - b))), which their noise does not
+    // add to; with the truth's noise alone, its square is taken off. 0 where nothing else is left.
+    double rmse = 0.0;
     double relativeRmse = 0.0; // rmse / mean(r); NaN, as not defined, unless mean(r) is above 0
+    // Of halves, else NaN: the standard error of relativeRmse, by the truth's noise.
+    double relativeRmseError = std::numeric_limits<double>::quiet_NaN();
+    // Root mean square of the truth's noise, over mean(r): by halves, or as given; else NaN.
+    double truthNoise = std::numeric_limits<double>::quiet_NaN();
     double relMse = 0.0;       // mean((t - r)^2 / (r^2 + (0.01 mean(r))^2)); likewise
     double smape = 0.0;        // mean(2 |t - r| / (|t| + |r|)), 0 where both are 0: symmetric MAPE, 0 to 2
     double bias = 0.0;         // mean(t - r)

@@ -7,8 +7,9 @@
 
 namespace rebound::metrics {
 
-// Fills in everything from `mean` to `percentile99`.
-void measurePointwise(const lab::Image& test, const lab::Image& truth, const ComparedPixels&, ErrorMetrics&);
+// Fills in everything from `mean` to `percentile99`, of what the options say about the truth's noise.
+void measurePointwise(const lab::Image& test, const lab::Image& truth, const CompareOptions&,
+                      const ComparedPixels&, ErrorMetrics&);
 
 // The largest |t - r| among a pixel's channels.
 double largestDifference(const float* test, const float* truth, int channels);

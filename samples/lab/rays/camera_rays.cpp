@@ -65,15 +65,25 @@ CameraRay CameraRays::throughPixel(int x, int y) const {
     return {eye, forward + offset};
 }
 
-std::optional<CameraRays::Projection> CameraRays::project(glm::dvec3 point) const {
+std::optional<glm::dvec3> CameraRays::place(glm::dvec3 point) const {
     const glm::dvec3 towards = point - eye;
     const double depth = glm::dot(towards, forward);
     if (!(depth > 0.0)) return std::nullopt;
     const double scale = orthographic ? 1.0 : 1.0 / depth;
-    const double x = glm::dot(towards, right) / glm::dot(right, right) * scale;
-    const double y = glm::dot(towards, up) / glm::dot(up, up) * scale;
-    if (!(std::abs(x) <= 1.0 && std::abs(y) <= 1.0)) return std::nullopt;
-    return Projection{orthographic ? eye + x * right + y * up : eye, depth};
+    return glm::dvec3(glm::dot(towards, right) / glm::dot(right, right) * scale,
+                      glm::dot(towards, up) / glm::dot(up, up) * scale, depth);
+}
+
+std::optional<glm::dvec2> CameraRays::pixelOf(glm::dvec3 point) const {
+    const auto placed = place(point);
+    if (!placed) return std::nullopt;
+    return glm::dvec2((placed->x + 1.0) / 2.0 * extent.width, (1.0 - placed->y) / 2.0 * extent.height);
+}
+
+std::optional<CameraRays::Projection> CameraRays::project(glm::dvec3 point) const {
+    const auto placed = place(point);
+    if (!placed || !(std::abs(placed->x) <= 1.0 && std::abs(placed->y) <= 1.0)) return std::nullopt;
+    return Projection{orthographic ? eye + placed->x * right + placed->y * up : eye, placed->z};
 }
 
 } // namespace rebound::lab

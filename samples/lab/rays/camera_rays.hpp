@@ -27,6 +27,10 @@ public:
     // Through the centre of pixel (x, y), row 0 on top.
     CameraRay throughPixel(int x, int y) const;
 
+    // The point's place in the picture [pixels, from its left upper corner], which may be beside it; nothing where the
+    // point is behind the camera.
+    std::optional<glm::dvec2> pixelOf(glm::dvec3 point) const;
+
     // Where a ray from the camera to a point starts, and the point's depth; nothing where the point is beside the view
     // or behind the camera.
     struct Projection {
@@ -36,6 +40,9 @@ public:
     std::optional<Projection> project(glm::dvec3 point) const;
 
 private:
+    // Across and up in halves of the view, and depth; nothing behind the camera.
+    std::optional<glm::dvec3> place(glm::dvec3 point) const;
+
     Extent2D extent;
     bool orthographic = false;
     glm::dvec3 eye{0.0};

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace rebound::lab {
 
@@ -18,6 +19,19 @@ struct Frame {
     Image albedo;   // 3 channels: diffuse reflectance
     Image direct;   // 3 channels: E_direct / pi, albedo not in it [W m^-2 sr^-1]
     Image emission; // 3 channels: radiance the surface itself emits [W m^-2 sr^-1]; empty: nothing emits
+    // 2 channels: where what a pixel shows was in the frame before, less where it is [pixels, x to the right, y with the
+    // rows]; behindCamera where that was behind its camera; 0 where nothing is shown. Empty: there was no frame before.
+    Image motion;
+    CameraView previousCamera; // of the frame before, where there was one
+};
+
+// Of a point that was behind the camera: beyond every picture [pixels].
+inline constexpr float behindCamera = 65504.0f;
+
+// What a frame goes on from.
+struct PreviousFrame {
+    CameraView camera;
+    std::vector<std::vector<glm::vec3>> positions; // by mesh of the scene: where its vertices were [m]
 };
 
 // Called now and then with the share that is done, 0 to 1; from any thread, one call at a time.
@@ -29,6 +43,7 @@ struct FrameOptions {
         16; // shadow rays a pixel for each area light, for all emissive surfaces, and for the environment
     int threads = 0; // 0: one a core
     Progress progress = {};
+    const PreviousFrame* previous = nullptr; // of a scene of the same meshes; null: the frame has no motion
 };
 
 // Casts primary rays, and shadow rays to every light, emissive surface and the environment. The same scene, camera and

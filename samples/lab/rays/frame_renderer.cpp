@@ -8,8 +8,10 @@
 #include "lab/rays/parallel_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace rebound::lab {
@@ -35,6 +37,16 @@ Result<> validate(const FrameOptions& options) {
     return {};
 }
 
+Result<> validate(const PreviousFrame& previous, const Scene& scene) {
+    if (auto valid = validate(previous.camera); !valid) return valid;
+    bool fits = previous.positions.size() == scene.meshes.size();
+    for (size_t i = 0; fits && i < scene.meshes.size(); ++i)
+        fits = previous.positions[i].size() == scene.meshes[i].positions.size();
+    if (fits) return {};
+    return invalidArgument(
+        "frame option previous is of a scene of other meshes; one of the same vertices was expected");
+}
+
 void store(Image& image, int x, int y, glm::vec3 value) {
     float* pixel = image.at(x, y);
     pixel[0] = value.x;
@@ -52,6 +64,11 @@ public:
         frame.normal = Image(options.extent, 3);
         frame.albedo = Image(options.extent, 3);
         frame.direct = Image(options.extent, 3);
+        if (const PreviousFrame* previous = options.previous) {
+            previousRays.emplace(previous->camera, options.extent);
+            frame.previousCamera = previous->camera;
+            frame.motion = Image(options.extent, 2);
+        }
         if (anyEmission()) frame.emission = Image(options.extent, 3);
     }
 
@@ -89,11 +106,31 @@ private:
         const uint32_t seed = hashBits(uint32_t(x), uint32_t(y));
         store(frame.direct, x, y, light.irradiance(hit.point, seed) / std::numbers::pi_v<float>);
         if (!frame.emission.empty()) store(frame.emission, x, y, hit.point.emission);
+        if (!frame.motion.empty()) storeMotion(frame.motion.at(x, y), hit.point.location);
+    }
+
+    // Both places come from the same weights of a triangle's corners, so that what stands still does so to the last bit.
+    void storeMotion(float* pixel, const SurfaceLocation& location) const {
+        const Mesh& mesh = scene.scene().meshes[location.mesh];
+        const auto placeIn = [&](const std::vector<glm::vec3>& positions) {
+            const auto corner = [&](size_t i) {
+                return glm::dvec3(positions[mesh.indices[size_t(location.triangle) * 3 + i]]);
+            };
+            const double u = double(location.u), v = double(location.v);
+            return (1.0 - u - v) * corner(0) + u * corner(1) + v * corner(2);
+        };
+        const auto now = rays.pixelOf(placeIn(mesh.positions));
+        const auto before = previousRays->pixelOf(placeIn(options.previous->positions[location.mesh]));
+        const bool isKnown =
+            now && before && std::max(std::abs(before->x), std::abs(before->y)) < double(behindCamera);
+        pixel[0] = isKnown ? float(before->x - now->x) : behindCamera;
+        pixel[1] = isKnown ? float(before->y - now->y) : behindCamera;
     }
 
     const EmbreeScene& scene;
     const FrameOptions& options;
     CameraRays rays;
+    std::optional<CameraRays> previousRays;
     DirectLight light;
     Frame frame;
 };
@@ -103,6 +140,8 @@ private:
 Result<Frame> renderFrame(const Scene& scene, const CameraView& camera, const FrameOptions& options) {
     if (auto valid = validate(options); !valid) return valid.error();
     if (auto valid = validate(camera); !valid) return valid.error();
+    if (options.previous)
+        if (auto valid = validate(*options.previous, scene); !valid) return valid.error();
     auto embreeScene = EmbreeScene::build(scene);
     if (!embreeScene) return embreeScene.error();
     try {

@@ -99,4 +99,35 @@ Texture makeTileTexture(const std::string& name, const Stone& even, const Stone&
     });
 }
 
+Texture makePlankTexture(const std::string& name, const Stone& wood, const glm::vec3& joint) {
+    return makeTexture(name, [&](const glm::vec2& at) {
+        const int board = static_cast<int>(at.y * 6.0f);
+        const float own = hash(board, 3, 41);
+        const float grain = clouds({at.x, at.y * 16.0f - std::floor(at.y * 16.0f)}, 4, 43 + board);
+        const float fine = noise({at.x, at.y}, 96, 47);
+        const glm::vec3 face = shade(wood, 0.5f * own + 0.7f * grain + 0.15f * fine - 0.15f);
+        const glm::vec2 inBoard(at.x, at.y * 6.0f - static_cast<float>(board));
+        return glm::mix(joint, face, inside(inBoard, {0.002f, 0.02f}));
+    });
+}
+
+Texture makeCarpetTexture(const std::string& name, const glm::vec3& ground, const glm::vec3& figure,
+                          const glm::vec3& border) {
+    return makeTexture(name, [&](const glm::vec2& at) {
+        const glm::vec2 edge = glm::min(at, 1.0f - at);
+        const float thread = 0.85f + 0.15f * noise(at, 128, 53);
+        const float nearest = std::min(edge.x, edge.y);
+        if (nearest < 0.1f && nearest > 0.03f) return border * thread;
+        const glm::vec2 cell = glm::abs(glm::fract(at * 6.0f) - 0.5f);
+        const float lozenge = cell.x + cell.y;
+        const bool isFigure = (lozenge < 0.42f && lozenge > 0.28f) || lozenge < 0.12f;
+        return (isFigure && nearest > 0.1f ? figure : ground) * thread;
+    });
+}
+
+Texture makeStripeTexture(const std::string& name, const glm::vec3& even, const glm::vec3& odd) {
+    return makeTexture(
+        name, [&](const glm::vec2& at) { return static_cast<int>(at.x * 8.0f) % 2 == 0 ? even : odd; });
+}
+
 } // namespace rebound::lab

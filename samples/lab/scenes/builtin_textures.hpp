@@ -25,4 +25,14 @@ Texture makeMasonryTexture(const std::string& name, const Stone&, const glm::vec
 // 4 x 4 tiles of alternating stones with joints.
 Texture makeTileTexture(const std::string& name, const Stone& even, const Stone& odd, const glm::vec3& joint);
 
+// Boards along u with joints between them, grained: 6 boards of different shades over v.
+Texture makePlankTexture(const std::string& name, const Stone&, const glm::vec3& joint);
+
+// A woven pattern of lozenges within a border.
+Texture makeCarpetTexture(const std::string& name, const glm::vec3& ground, const glm::vec3& figure,
+                          const glm::vec3& border);
+
+// Stripes along v.
+Texture makeStripeTexture(const std::string& name, const glm::vec3& even, const glm::vec3& odd);
+
 } // namespace rebound::lab

@@ -6,17 +6,24 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace rebound::lab {
 namespace {
 
 constexpr std::string_view builtinPrefix = "builtin:";
 
+constexpr std::pair<const char*, Scene (*)()> builtinMakers[] = {{"atrium", makeAtrium},
+                                                                 {"cornell", makeCornellBox},
+                                                                 {"study", makeStudy},
+                                                                 {"street", makeStreet},
+                                                                 {"tunnel", makeTunnel}};
+
 Scene makeBuiltin(const std::string& name) {
-    if (name == "atrium") return makeAtrium();
-    if (name == "cornell") return makeCornellBox();
-    refuse("there is no built-in scene '" + std::string(builtinPrefix) + name +
-               "'; there are 'builtin:atrium' and 'builtin:cornell'",
+    for (const auto& [known, make] : builtinMakers)
+        if (name == known) return make();
+    refuse("there is no built-in scene '" + std::string(builtinPrefix) + name + "'; " + builtinSceneList() +
+               " was expected",
            ErrorCode::notFound);
 }
 
@@ -72,7 +79,27 @@ GltfOptions momentOf(GltfOptions options, const SceneMoment& moment) {
     options.animation = moment.animation.value_or(options.animation);
     options.time = moment.time.value_or(options.time);
     options.animate = options.animate || moment.animation || moment.time;
+    options.moved = moment.moved;
     return options;
+}
+
+// Moves all meshes of each name.
+void moveMeshes(Scene& scene, const std::map<std::string, glm::mat4>& moved) {
+    for (const auto& [name, place] : moved) {
+        bool isKnown = false;
+        for (Mesh& mesh : scene.meshes) {
+            if (mesh.name != name) continue;
+            isKnown = true;
+            for (glm::vec3& position : mesh.positions)
+                position = glm::vec3(place * glm::vec4(position, 1.0f));
+            for (glm::vec3& normal : mesh.normals) normal = glm::normalize(glm::mat3(place) * normal);
+        }
+        if (isKnown) continue;
+        std::string known;
+        for (const Mesh& mesh : scene.meshes) known += (known.empty() ? "'" : ", '") + mesh.name + "'";
+        refuse("there is no mesh '" + name + "' to move in the scene; there are " + known,
+               ErrorCode::notFound);
+    }
 }
 
 Scene readScene(const std::string& name, const std::filesystem::path& viewFile, const SceneMoment& moment) {
@@ -81,6 +108,7 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile, 
             refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
                    ErrorCode::invalidArgument);
         Scene scene = makeBuiltin(name.substr(builtinPrefix.size()));
+        moveMeshes(scene, moment.moved);
         if (!viewFile.empty()) orRefuse(applyViewFile(viewFile, scene));
         return scene;
     }
@@ -93,6 +121,23 @@ Scene readScene(const std::string& name, const std::filesystem::path& viewFile, 
 }
 
 } // namespace
+
+const std::vector<std::string>& builtinScenes() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const auto& maker : builtinMakers) all.push_back(std::string(builtinPrefix) + maker.first);
+        return all;
+    }();
+    return names;
+}
+
+std::string builtinSceneList() {
+    const std::vector<std::string>& names = builtinScenes();
+    std::string list;
+    for (size_t i = 0; i < names.size(); ++i)
+        list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+    return list;
+}
 
 Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile,
                         const SceneMoment& moment) {

@@ -56,14 +56,27 @@ MeshBuilder::MeshBuilder(std::string name, int material, float textureRepeats) :
 
 uint32_t MeshBuilder::vertex(const glm::vec3& position, const glm::vec3& normal,
                              const glm::vec2& textureCoordinate) {
-    mesh.positions.push_back(position);
-    mesh.normals.push_back(glm::normalize(normal));
+    mesh.positions.emplace_back(placement * glm::vec4(position, 1.0f));
+    mesh.normals.push_back(glm::normalize(glm::mat3(placement) * normal));
     mesh.textureCoordinates.push_back(textureCoordinate);
     return static_cast<uint32_t>(mesh.positions.size() - 1);
 }
 
 void MeshBuilder::triangle(uint32_t a, uint32_t b, uint32_t c) {
     mesh.indices.insert(mesh.indices.end(), {a, b, c});
+}
+
+void MeshBuilder::rod(const glm::vec3& from, const glm::vec3& to, float radius, int segments) {
+    const glm::vec3 axis = glm::normalize(to - from);
+    const glm::vec3 aside = std::abs(axis.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 x = glm::normalize(glm::cross(axis, aside));
+    const glm::mat4 before = placement;
+    placement = before * glm::mat4(glm::vec4(x, 0.0f), glm::vec4(axis, 0.0f),
+                                   glm::vec4(glm::cross(x, axis), 0.0f), glm::vec4(from, 1.0f));
+    const float length = glm::distance(from, to);
+    const std::array<glm::vec2, 4> profile = {glm::vec2(0, 0), {radius, 0}, {radius, length}, {0, length}};
+    revolve(profile, glm::vec3(0.0f), segments);
+    placement = before;
 }
 
 void MeshBuilder::face(std::span<const glm::vec3> corners) {

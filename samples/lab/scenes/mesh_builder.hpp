@@ -23,6 +23,12 @@ public:
     // `repeats`: how often a texture repeats over a metre.
     MeshBuilder(std::string name, int material, float repeats = 1.0f);
 
+    // What is added from now on is moved by this: a rotation and a translation. Textures move along.
+    void place(const glm::mat4& motion) { placement = motion; }
+
+    // A round rod between two points, closed at its ends.
+    void rod(const glm::vec3& from, const glm::vec3& to, float radius, int segments);
+
     // A convex planar polygon, counter-clockwise seen from its front.
     void face(std::span<const glm::vec3> corners);
 
@@ -53,6 +59,7 @@ private:
 
     Mesh mesh;
     float repeats;
+    glm::mat4 placement{1.0f};
 };
 
 // The volume inside a mesh's triangles [m^3]; positive for closed solids whose triangles face outwards.

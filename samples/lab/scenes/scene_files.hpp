@@ -5,8 +5,10 @@
 #include "lab/scenes/scene.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rebound::lab {
 
@@ -14,6 +16,8 @@ struct GltfOptions {
     std::string animation; // a clip's name; empty: the first, if there is one
     float time = 0.0f;     // of that clip [s]; past its end it holds the last pose
     bool animate = false;  // false: the file's rest pose
+    // Of nodes by name: where each is and what is below it, by a transform in world space on top of the pose.
+    std::map<std::string, glm::mat4> moved = {};
 };
 
 // Reads .gltf or .glb (2.0): node transforms, base colour with textures and alpha mask, emission with
@@ -34,9 +38,11 @@ Result<GltfOptions> readViewAnimation(const std::filesystem::path&);
 struct SceneMoment {
     std::optional<std::string> animation; // a clip's name
     std::optional<float> time;            // of that clip [s]
+    // Of glTF nodes, or of a built-in scene's meshes, by name: a transform in world space on top of that.
+    std::map<std::string, glm::mat4> moved = {};
 };
 
-// A scene file, or "builtin:atrium" or "builtin:cornell", which do not move. With an empty viewFile, the view.json
+// A scene file, or one of builtinScenes(), which have no animation. With an empty viewFile, the view.json
 // beside a scene file is used where there is one. A scene that has no camera gets one that sees all of it. The result
 // is validated.
 Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile = {},
@@ -44,5 +50,13 @@ Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem:
 
 Scene makeCornellBox();
 Scene makeAtrium();
+Scene makeStudy();
+Scene makeStreet();
+Scene makeTunnel();
+
+// Names of the scenes made in code, with "builtin:" before them.
+const std::vector<std::string>& builtinScenes();
+// The same as a sentence has them: "a, b or c".
+std::string builtinSceneList();
 
 } // namespace rebound::lab

@@ -4,13 +4,15 @@
 
 #include "lab/files/input_error.hpp"
 
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
-namespace rebound::charts {
+namespace rebound::lab {
 
 // Short enough for a sentence.
 inline std::string shortText(const nlohmann::json& value) {
@@ -19,31 +21,28 @@ inline std::string shortText(const nlohmann::json& value) {
     return text;
 }
 
-// All of these throw lab::InputError; `where` is the path to the value, such as reference.samples.
+// All of these throw InputError; `where` is the path to the value, such as reference.samples.
 [[noreturn]] inline void refuseValue(const std::string& where, const nlohmann::json& value,
                                      const std::string& expected) {
-    lab::refuse(where + " is " + shortText(value) + "; " + expected + " was expected");
+    refuse(where + " is " + shortText(value) + "; " + expected + " was expected");
 }
 
 inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key,
                                     const std::string& where) {
     const auto found = object.find(key);
-    if (found == object.end()) lab::refuse(where + " is missing");
+    if (found == object.end()) refuse(where + " is missing");
     return *found;
 }
 
 inline void checkKeys(const nlohmann::json& object, const std::string& where,
-                      std::initializer_list<const char*> known) {
+                      const std::vector<std::string>& known) {
     if (!object.is_object()) refuseValue(where, object, "an object");
     std::string list;
-    for (const char* key : known) list += (list.empty() ? "" : ", ") + std::string(key);
-    for (const auto& [key, value] : object.items()) {
-        bool isKnown = false;
-        for (const char* k : known) isKnown = isKnown || key == k;
-        if (!isKnown)
-            lab::refuse((where.empty() ? "" : where + ": ") + "the key " + shortText(nlohmann::json(key)) +
-                        " is unknown; some of " + list + " were expected");
-    }
+    for (const std::string& key : known) list += (list.empty() ? "" : ", ") + key;
+    for (const auto& [key, value] : object.items())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            refuse((where.empty() ? "" : where + ": ") + "the key " + shortText(nlohmann::json(key)) +
+                   " is unknown; some of " + list + " were expected");
 }
 
 inline std::string textOf(const nlohmann::json& value, const std::string& where) {
@@ -68,9 +67,17 @@ inline int integerOf(const nlohmann::json& value, const std::string& where, int 
     return value.get<int>();
 }
 
+inline glm::vec3 vectorOf(const nlohmann::json& value, const std::string& where, double most) {
+    if (!value.is_array() || value.size() != 3) refuseValue(where, value, "three numbers");
+    glm::vec3 vector;
+    for (int i = 0; i < 3; ++i)
+        vector[i] = float(numberOf(value[size_t(i)], where + "[" + std::to_string(i) + "]", -most, most));
+    return vector;
+}
+
 inline const nlohmann::json& arrayOf(const nlohmann::json& value, const std::string& where) {
     if (!value.is_array() || value.empty()) refuseValue(where, value, "an array that is not empty");
     return value;
 }
 
-} // namespace rebound::charts
+} // namespace rebound::lab

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace rebound::measure {
+namespace rebound::techniques {
 
 template <class T>
 using Names = std::span<const std::pair<const char*, T>>;
@@ -34,4 +34,4 @@ const char* nameIn(Names<T> names, T wanted) {
     return "?";
 }
 
-} // namespace rebound::measure
+} // namespace rebound::techniques

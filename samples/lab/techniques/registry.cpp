@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "lab/techniques/technique.hpp"
+
+#include <algorithm>
+
+namespace rebound::techniques {
+
+Technique screenIndirect();
+
+const std::vector<Technique>& all() {
+    static const std::vector<Technique> techniques = {screenIndirect()};
+    return techniques;
+}
+
+std::string names() {
+    std::string list;
+    for (const Technique& technique : all()) list += (list.empty() ? "" : ", ") + technique.name;
+    return list;
+}
+
+Result<const Technique*> named(const std::string& what, const std::string& name) {
+    for (const Technique& technique : all())
+        if (technique.name == name) return &technique;
+    return invalidArgument(what + " is \"" + name + "\"; one of " + names() + " was expected");
+}
+
+Result<> checkOptions(const Technique& technique, const Draft& draft, Spelling spelling) {
+    for (const auto& [option, value] : draft)
+        if (std::none_of(technique.options.begin(), technique.options.end(),
+                         [&](const Option& known) { return known.name == option; }))
+            return invalidArgument(spelled(option, spelling) + " is given, which technique " +
+                                   technique.name + " does not have");
+    return {};
+}
+
+std::string spelled(const std::string& option, Spelling spelling) {
+    if (spelling == Spelling::options) return "--" + option;
+    std::string key = option;
+    std::replace(key.begin(), key.end(), '-', '_');
+    return key;
+}
+
+View viewOf(const lab::Frame& frame) {
+    return {frame.depth.extent(),
+            frame.camera.orthographic ? Projection::orthographic : Projection::perspective};
+}
+
+} // namespace rebound::techniques
