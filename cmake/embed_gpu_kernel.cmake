@@ -32,51 +32,26 @@ foreach(version "430" "310 es")
     run(${GLSLANG} -S comp ${base}.${suffix}.comp)
 endforeach()
 
-# What the kernel declares, for the devices that check plans against it.
-file(READ ${FOLDER}/${NAME}.comp text)
-set(kinds none none none none none none none none none none none none none none none none)
-set(formats r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f r32f)
-set(counts 1 1 1 1)
-function(replace_item list index value)
-    list(REMOVE_AT ${list} ${index})
-    list(INSERT ${list} ${index} ${value})
-    set(${list} ${${list}} PARENT_SCOPE)
-endfunction()
-string(REGEX MATCHALL "RB_(TEXTURE|TEXTURE_OF_ANY_SIZE|INPUT|IMAGE|OUTPUT|BUFFER|CONSTANTS|FEATURE)\\([^)]*\\)" declarations "${text}")
-foreach(declaration ${declarations})
-    string(REGEX MATCH "^RB_([A-Z_]+)\\( *([0-9]+) *, *([A-Za-z0-9_]+) *,? *([A-Za-z0-9_]*) *\\)" matched "${declaration}")
-    if(NOT matched)
-        message(FATAL_ERROR "${NAME}: ${declaration} is not a declaration of a slot or a feature")
-    endif()
-    set(index ${CMAKE_MATCH_2})
-    set(third "${CMAKE_MATCH_3}")
-    set(fourth "${CMAKE_MATCH_4}")
-    string(TOLOWER ${CMAKE_MATCH_1} kind)
-    string(REPLACE "_of_any_size" "" kind ${kind})
-    if(kind STREQUAL "feature")
-        if(NOT fourth MATCHES "^[0-9]+$")
-            string(REGEX MATCH "const int ${fourth} *= *([0-9]+)" matched "${glsl}")
-            set(fourth ${CMAKE_MATCH_1})
-        endif()
-        replace_item(counts ${index} ${fourth})
-    else()
-        if(kind MATCHES "image|output")
-            replace_item(formats ${index} ${third})
-        endif()
-        replace_item(kinds ${index} ${kind})
-    endif()
-endforeach()
-list(TRANSFORM kinds PREPEND "BindingKind::")
-list(JOIN kinds ", " kinds)
-list(TRANSFORM formats PREPEND "Format::")
-list(JOIN formats ", " formats)
-list(JOIN counts ", " counts)
-
 file(READ ${base}.spv hex HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
 string(REGEX REPLACE "((0x[0-9a-f]+,){8})" "\\1\n    " words "${words}")
+# What the kernel declares is read by C++, as for a CPU: nothing of it runs.
 file(WRITE ${OUTPUT} "// Generated: ${NAME}.
+#define REBOUND_ISA declarations
+#define REBOUND_CPU_LANES
+#define REBOUND_SCALAR_LANES
+#include \"rebound/kernel/lanes_headers.h\"
+
+#include \"rebound/kernel/cpu_binding.h\"
 #include \"rebound/shaders.hpp\"
+
+namespace rebound::cpu::declarations {
+namespace {
+#include \"${FOLDER}/${NAME}.comp\"
+#include \"rebound/kernel/kernel_info.h\"
+} // namespace
+static constexpr const KernelInfo& infoOf${ID} = kernelInfo;
+} // namespace rebound::cpu::declarations
 
 namespace rebound::shaders {
 namespace {
@@ -86,12 +61,6 @@ constexpr uint32_t spirv[] = {
 constexpr std::string_view glsl = R\"GLSL(${glsl})GLSL\";
 }
 extern const Shader ${ID};
-const Shader ${ID} = {
-    \"${NAME}\",
-    spirv,
-    glsl,
-    {{${kinds}}, {${counts}}, {}},
-    {${formats}},
-};
+const Shader ${ID} = {\"${NAME}\", spirv, glsl, cpu::declarations::infoOf${ID}};
 } // namespace rebound::shaders
 ")

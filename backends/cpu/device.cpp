@@ -35,53 +35,55 @@ ImageLayout layoutOf(const Resource& r) {
 
 namespace {
 
+// In one block: what transients share, then tables, then what is kept from frame to frame.
 struct MemoryPlan {
-    TransientLayout transients;
-    std::vector<size_t> bufferOffsets; // by resource, behind the transients [bytes]
+    std::vector<size_t> offsets; // by resource, in the block [bytes]
     MemoryUse use;
 };
 
+size_t aligned(size_t size) { return (size + memoryAlignment - 1) / memoryAlignment * memoryAlignment; }
+
+size_t sizeInMemory(const Resource& r) { return isImage(r.kind) ? layoutOf(r).size : aligned(r.size); }
+
 MemoryPlan planMemory(const Plan& plan) {
     std::vector<size_t> sizes;
-    for (const Resource& r : plan.resources)
-        sizes.push_back(r.kind == ResourceKind::transient ? layoutOf(r).size : 0);
+    for (const Resource& r : plan.resources) sizes.push_back(sizeInMemory(r));
     MemoryPlan memory;
-    memory.transients = layoutTransients(plan, sizes, memoryAlignment);
-    memory.use.transient = memory.transients.size;
-    memory.use.transientUnshared = memory.transients.sizeUnshared;
-    for (const Resource& r : plan.resources) {
-        memory.bufferOffsets.push_back(memory.use.transient + memory.use.buffers);
-        if (r.kind == ResourceKind::buffer)
-            memory.use.buffers += (r.size + memoryAlignment - 1) / memoryAlignment * memoryAlignment;
-    }
+    const TransientLayout transients = layoutTransients(plan, sizes, memoryAlignment);
+    memory.offsets = transients.offsets;
+    memory.use.transient = transients.size;
+    memory.use.transientUnshared = transients.sizeUnshared;
+    const auto place = [&](size_t i, size_t size, size_t& used) {
+        memory.offsets[i] = memory.use.total();
+        used += size;
+    };
+    for (size_t i = 0; i < sizes.size(); ++i)
+        if (plan.resources[i].kind == ResourceKind::buffer) place(i, sizes[i], memory.use.buffers);
+    for (size_t i = 0; i < sizes.size(); ++i)
+        if (isPersistent(plan.resources[i].kind))
+            place(i, plan.resources[i].kind == ResourceKind::history ? 2 * sizes[i] : sizes[i],
+                  memory.use.persistent);
     return memory;
 }
 
-Binding bindingOf(const Resource& r, std::byte* transient, std::byte* buffer) {
+bool isOwn(ResourceKind k) { return isTransient(k) || isPersistent(k) || k == ResourceKind::buffer; }
+
+Binding bindingOf(const Resource& r, std::byte* memory) {
     Binding b;
     b.width = r.extent.width;
     b.height = r.extent.height;
     b.channels = r.channels;
-    if (r.kind == ResourceKind::transient) {
+    b.size = r.size;
+    if (isOwn(r.kind)) b.data = memory;
+    if (isOwn(r.kind) && isImage(r.kind)) {
         b.holdsHalves = r.format == Format::rgba16f;
         const ImageLayout layout = layoutOf(r);
-        b.data = reinterpret_cast<float*>(transient) + planeMargin;
+        b.data = reinterpret_cast<float*>(memory) + planeMargin;
         b.pixelStride = sizeof(float);
         b.rowStride = layout.rowStride * ptrdiff_t(sizeof(float));
         b.channelStride = layout.channelStride * ptrdiff_t(sizeof(float));
-    } else if (r.kind == ResourceKind::buffer) {
-        b.data = buffer;
     }
     return b;
-}
-
-RunRows variantOf(const KernelEntry& kernel, const Pass& pass) {
-    int index = 0, stride = 1;
-    for (size_t i = 0; i < pass.features.size(); ++i) {
-        index += stride * pass.features[i];
-        stride *= kernel.info.featureCounts[i];
-    }
-    return kernel.variants[index];
 }
 
 Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const KernelEntry& kernel,
@@ -89,17 +91,23 @@ Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const Kerne
     if (auto valid = detail::checkKernelUse(plan, pass, kernel.name, kernel.info); !valid)
         return valid.error();
     CompiledPass compiled;
-    compiled.run = variantOf(kernel, pass);
-    compiled.grid = pass.grid;
-    constexpr int pixelsPerTask = 2048; // enough to hide a task's overhead of well under a microsecond
-    compiled.rowsPerTask = std::max(1, pixelsPerTask / pass.grid.width);
+    compiled.run = kernel.variants[detail::combinationOf(pass, kernel.info)];
+    // Enough to hide a task's overhead of well under a microsecond.
+    constexpr int pixelsPerTask = 2048, itemsPerTask = 256;
+    if (pass.items > 0) {
+        compiled.widthOrItems = compiled.count = pass.items;
+        compiled.countPerTask = itemsPerTask;
+    } else {
+        compiled.widthOrItems = pass.grid.width;
+        compiled.count = pass.grid.height;
+        compiled.countPerTask = std::max(1, pixelsPerTask / pass.grid.width);
+    }
     for (const PassBinding& binding : pass.bindings) {
         const Resource& r = plan.resources[size_t(binding.resource)];
         compiled.slots[size_t(binding.slot)] = resources[size_t(binding.resource)];
         compiled.slots[size_t(binding.slot)].kind = kernel.info.kinds[binding.slot];
-        if (r.kind != ResourceKind::transient && r.kind != ResourceKind::buffer)
-            compiled.external.push_back(binding);
-        if (r.kind == ResourceKind::transient && binding.access == Access::write)
+        if (!isOwn(r.kind) || r.kind == ResourceKind::history) compiled.perFrame.push_back(binding);
+        if (isOwn(r.kind) && isImage(r.kind) && binding.access == Access::write)
             compiled.cleared.push_back(binding.resource);
     }
     return compiled;
@@ -136,8 +144,23 @@ Result<Device> Device::create(const DeviceOptions& options) {
 Isa Device::isa() const { return shared->isa; }
 int Device::threads() const { return shared->pool ? shared->pool->threadCount() : 0; }
 
-MemoryUse Device::memoryUse(const Plan& plan) const {
-    return validate(plan) ? planMemory(plan).use : MemoryUse{};
+Result<MemoryUse> Device::memoryUse(const Plan& plan) const {
+    if (auto valid = validate(plan); !valid) return valid.error();
+    return planMemory(plan).use;
+}
+
+Result<Buffer> Device::createBuffer(std::span<const std::byte> data) const {
+    if (data.empty()) return invalidArgument("data is empty; at least one byte was expected");
+    try {
+        Buffer buffer;
+        buffer.shared = std::make_shared<const std::vector<std::byte>>(data.begin(), data.end());
+        buffer.data = const_cast<std::byte*>(buffer.shared->data());
+        buffer.size = data.size();
+        return buffer;
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::outOfMemory, "the buffer needs " + std::to_string(data.size()) +
+                                                 " bytes, which could not be allocated"};
+    }
 }
 
 Result<Program> Device::compile(const Plan& plan) const {
@@ -152,11 +175,13 @@ Result<Program> Device::compile(const Plan& plan) const {
         return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(memory.use.total()) +
                                                  " bytes, which could not be allocated"};
     std::byte* base = state->memory.bytes.get();
+    state->persistent = base + memory.use.transient + memory.use.buffers;
     for (size_t i = 0; i < plan.resources.size(); ++i) {
         const Resource& r = plan.resources[i];
-        std::byte* buffer = base + memory.bufferOffsets[i];
-        state->resources.push_back(bindingOf(r, base + memory.transients.offsets[i], buffer));
-        if (r.kind == ResourceKind::buffer) std::memcpy(buffer, r.data.data(), r.size);
+        std::byte* begin = base + memory.offsets[i];
+        state->resources.push_back(bindingOf(r, begin));
+        state->historyDistance.push_back(r.kind == ResourceKind::history ? sizeInMemory(r) : 0);
+        if (r.kind == ResourceKind::buffer) std::memcpy(begin, r.data->data(), r.size);
     }
     for (const Pass& pass : plan.passes) {
         const KernelEntry* kernel = shared->findKernel(pass.kernel);

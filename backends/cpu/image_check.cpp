@@ -43,6 +43,10 @@ Result<> checkShape(const Resource& r, const Image& image, const std::string& wh
     if (image.channels < r.channels || image.channels > 4)
         return invalidArgument(what + " has " + std::to_string(image.channels) + " channels; " +
                                std::to_string(r.channels) + " to 4 were expected");
+    if ((image.scalar == Scalar::uint32) != isInteger(r.format))
+        return invalidArgument(what + " holds " +
+                               (image.scalar == Scalar::uint32 ? "unsigned integers" : "floats") +
+                               ", where the plan's " + name(r.format) + " was expected");
     return {};
 }
 

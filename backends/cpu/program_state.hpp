@@ -33,21 +33,27 @@ struct AlignedMemory {
 };
 
 struct CompiledPass {
-    RunRows run = nullptr;
-    std::array<Binding, slotCount> slots{}; // complete but for what the host hands in with each frame
-    std::vector<PassBinding> external;      // bindings that record() completes
+    RunRange run = nullptr;
+    std::array<Binding, slotCount> slots{}; // complete but for what changes from frame to frame
+    std::vector<PassBinding> perFrame;      // bindings that record() completes: of the host, and of history
     std::vector<ResourceIndex>
-        cleared; // transients that the pass writes: their padding is to be zero afterwards
-    Extent2D grid;
-    int rowsPerTask = 1;
+        cleared; // images of the device's own that the pass writes: their padding is to be zero afterwards
+    int widthOrItems = 0;
+    int count = 0;        // of rows or items
+    int countPerTask = 1; // likewise; of items a multiple of 64
 };
 
 struct Program::State {
     std::shared_ptr<const Device::Shared> device;
     Plan plan;
     MemoryUse use;
-    AlignedMemory memory;           // transients, then buffers
-    std::vector<Binding> resources; // by resource of the plan; those of the host without data
+    AlignedMemory memory;            // transients, then buffers, then history and persistent buffers
+    std::byte* persistent = nullptr; // the first byte of the latter
+    detail::FrameCount frames;
+    int historyWritten = 0; // the image of history that the latest frame has written
+    std::vector<Binding>
+        resources; // by resource of the plan; those of the host without data; of history the first image
+    std::vector<size_t> historyDistance; // by resource: from the first image of history to the second [bytes]
     std::vector<CompiledPass> passes;
     std::vector<PassTiming> timings;
     std::function<void(int)> passCallback;
@@ -55,7 +61,7 @@ struct Program::State {
 
 inline constexpr size_t memoryAlignment = 64; // a cache line, and the widest vector [bytes]
 
-// How a transient image lies in memory; data is the offset of its first float behind the image's start.
+// How an image of the device's own lies in memory; data is the offset of its first float behind the image's start.
 struct ImageLayout {
     ptrdiff_t rowStride = 0;     // [floats]
     ptrdiff_t channelStride = 0; // [floats]

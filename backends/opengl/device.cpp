@@ -12,6 +12,7 @@ namespace rebound::opengl {
 namespace {
 
 constexpr const char* compiling = "compiling a plan";
+constexpr const char* creatingBuffer = "creating a buffer";
 
 Error exceeds(const std::string& what, int64_t value, const char* unit, int64_t limit) {
     return {ErrorCode::unsupported,
@@ -21,7 +22,7 @@ Error exceeds(const std::string& what, int64_t value, const char* unit, int64_t 
 Result<> checkResources(const Plan& plan, const Limits& limits) {
     for (const Resource& r : plan.resources) {
         const int side = std::max(r.extent.width, r.extent.height);
-        if (detail::isImage(r.kind) && side > limits.textureSize)
+        if (isImage(r.kind) && side > limits.textureSize)
             return exceeds("plan.resources: " + r.name + " has a side of ", side, "texels",
                            limits.textureSize);
     }
@@ -44,8 +45,8 @@ Result<> checkBlocks(const Plan& plan, const Pass& pass, const Shader& shader, c
     for (const PassBinding& b : pass.bindings) {
         const Resource& r = plan.resources[size_t(b.resource)];
         const BindingKind kind = shader.info.kinds[b.slot];
-        const int64_t limit = kind == BindingKind::buffer ? limits.storageBlock : limits.uniformBlock;
-        if (!detail::isImage(r.kind) && int64_t(r.size) > limit)
+        const int64_t limit = kind == BindingKind::constants ? limits.uniformBlock : limits.storageBlock;
+        if (!isImage(r.kind) && int64_t(r.size) > limit)
             return exceeds("plan.resources: " + r.name + " has ", int64_t(r.size), "bytes", limit);
     }
     return {};
@@ -56,11 +57,11 @@ Result<> checkBlocks(const Plan& plan, const Pass& pass, const Shader& shader, c
 Result<> checkFormats(const Plan& plan, const Pass& pass, const Shader& shader,
                       std::vector<std::optional<Format>>& outputs) {
     for (const PassBinding& b : pass.bindings) {
-        if (b.access == Access::read) continue;
         const Resource& r = plan.resources[size_t(b.resource)];
-        const Format declared = shader.formats[b.slot];
+        if (b.access != Access::write || !isImage(r.kind)) continue;
+        const Format declared = shader.info.formats[b.slot];
         std::optional<Format>& output = outputs[size_t(b.resource)];
-        if (!output) output = r.kind == ResourceKind::transient ? r.format : declared;
+        if (!output) output = r.kind == ResourceKind::output ? declared : r.format;
         if (declared != *output)
             return invalidArgument("plan.passes: " + pass.label + " writes " + r.name + ", which is " +
                                    name(*output) + ", to slot " + std::to_string(b.slot) + " of " +
@@ -89,21 +90,20 @@ Result<> checkPlan(const Device::Shared& device, const Plan& plan, Program::Stat
     return {};
 }
 
-Result<> checkContext(const Gl& gl) {
+Result<> checkContext(const Gl& gl, const char* doing, const char* call) {
     const bool isCurrent = gl.GetString(GL_VERSION) != nullptr;
     // Reading an error clears it: so it is handed on, for the host to know.
     const GLenum error = gl.GetError();
-    if (error == GL_CONTEXT_LOST) return gl.lost(compiling, error);
+    if (error == GL_CONTEXT_LOST) return gl.lost(doing, error);
     if (!isCurrent)
         return invalidArgument(
             "no OpenGL context is current; the one that the device was created in was expected");
     if (error != GL_NO_ERROR)
-        return invalidArgument(errorName(error) + " was pending before compile(); no error was expected");
+        return invalidArgument(errorName(error) + " was pending before " + call + "; no error was expected");
     return {};
 }
 
-Result<CompiledPass> compilePass(const Device::Shared& device, const Plan& plan, const Pass& pass,
-                                 GLbitfield barrier) {
+Result<CompiledPass> compilePass(const Device::Shared& device, const Pass& pass, GLbitfield barrier) {
     const Shader* shader = detail::findShader(device.shaders, pass.kernel);
     std::weak_ptr<const ShaderProgram>& known = device.built[{shader, pass.features}];
     CompiledPass compiled;
@@ -113,16 +113,13 @@ Result<CompiledPass> compilePass(const Device::Shared& device, const Plan& plan,
         if (!built) return built.error();
         known = compiled.program = *built;
     }
-    // Once more, now that sizes are known.
-    const ShaderProgram& program = *compiled.program;
-    if (auto valid = detail::checkKernelUse(plan, pass, shader->name, program.info); !valid)
-        return valid.error();
     for (const PassBinding& b : pass.bindings)
-        compiled.slots.push_back({shader->info.kinds[b.slot], GLuint(program.units.bySlot[b.slot]),
-                                  b.resource, shader->formats[b.slot]});
+        compiled.slots.push_back({shader->info.kinds[b.slot], GLuint(compiled.program->units.bySlot[b.slot]),
+                                  b.resource, shader->info.formats[b.slot], b.access});
     compiled.barrierBefore = barrier;
-    compiled.groups[0] = GLuint((pass.grid.width + shaderGroupSize - 1) / shaderGroupSize);
-    compiled.groups[1] = GLuint((pass.grid.height + shaderGroupSize - 1) / shaderGroupSize);
+    const GroupCounts groups = groupCounts(pass);
+    compiled.groups[0] = groups.x;
+    compiled.groups[1] = groups.y;
     return compiled;
 }
 
@@ -143,33 +140,38 @@ void createTextures(Program::State& state) {
 }
 
 void createBuffers(Program::State& state) {
+    constexpr std::array<std::pair<const char*, GLenum>, 4> kinds{
+        std::pair{"constants and tables", GL_STATIC_DRAW},
+        {"frame constants", GL_STREAM_DRAW},
+        {"transient buffers", GL_DYNAMIC_COPY},
+        {"persistent buffers", GL_DYNAMIC_COPY}};
     const Gl& gl = *state.gl;
-    if (state.memory.buffers > 0) {
-        std::vector<std::byte> bytes(state.memory.buffers);
-        for (size_t i = 0; i < state.plan.resources.size(); ++i)
-            if (const Resource& r = state.plan.resources[i]; r.kind == ResourceKind::buffer)
-                std::memcpy(bytes.data() + state.memory.bufferOffsets[i], r.data.data(), r.size);
-        state.buffers = Object(state.gl, ObjectKind::buffer);
-        gl.BindBuffer(GL_UNIFORM_BUFFER, state.buffers.name());
-        gl.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(bytes.size()), bytes.data(), GL_STATIC_DRAW);
-        gl.label(GL_BUFFER, state.buffers.name(), state.plan.technique + ": constants and sample patterns");
-    }
-    if (state.memory.frameConstants > 0) {
-        state.frameConstants = Object(state.gl, ObjectKind::buffer);
-        gl.BindBuffer(GL_UNIFORM_BUFFER, state.frameConstants.name());
-        gl.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(state.memory.frameConstants), nullptr, GL_STREAM_DRAW);
-        gl.label(GL_BUFFER, state.frameConstants.name(), state.plan.technique + ": frame constants");
+    for (size_t group = 0; group < kinds.size(); ++group) {
+        const size_t size = state.memory.bufferSizes[group];
+        if (size == 0) continue;
+        std::vector<std::byte> bytes;
+        if (group == size_t(BufferGroup::tables)) {
+            bytes.resize(size);
+            for (size_t i = 0; i < state.plan.resources.size(); ++i)
+                if (const Resource& r = state.plan.resources[i]; r.kind == ResourceKind::buffer)
+                    std::memcpy(bytes.data() + state.memory.bufferOffsets[i], r.data->data(), r.size);
+        }
+        state.buffers[group] = Object(state.gl, ObjectKind::buffer);
+        gl.BindBuffer(GL_UNIFORM_BUFFER, state.buffers[group].name());
+        gl.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(size), bytes.empty() ? nullptr : bytes.data(),
+                      kinds[group].second);
+        gl.label(GL_BUFFER, state.buffers[group].name(), state.plan.technique + ": " + kinds[group].first);
     }
 }
 
-Result<> checkAllocations(const Gl& gl, const MemoryUse& use) {
+Result<> checkAllocations(const Gl& gl, const std::string& what, size_t bytes) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return {};
     if (error == GL_CONTEXT_LOST) return gl.lost(compiling, error);
     if (error == GL_OUT_OF_MEMORY)
-        return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(use.total()) +
-                                                 " bytes, which OpenGL could not allocate"};
-    return Error{ErrorCode::unsupported, "OpenGL refuses what the plan needs: " + errorName(error)};
+        return Error{ErrorCode::outOfMemory,
+                     what + " needs " + std::to_string(bytes) + " bytes, which OpenGL could not allocate"};
+    return Error{ErrorCode::unsupported, "OpenGL refuses what " + what + " needs: " + errorName(error)};
 }
 
 Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared, const Plan& plan) {
@@ -178,14 +180,15 @@ Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared,
     state->gl = shared->gl;
     const Gl& gl = *shared->gl;
     if (auto valid = checkPlan(*shared, plan, *state); !valid) return valid.error();
-    if (auto valid = checkContext(gl); !valid) return valid.error();
+    if (auto valid = checkContext(gl, compiling, "compile()"); !valid) return valid.error();
     state->plan = plan;
     state->memory = planMemory(plan, gl.limits.alignment);
     const StateGuard guard(gl, {1, 0, 0, 0});
     const std::vector<GLbitfield> barriers = barriersBefore(plan, state->memory);
+    state->barrierBehind = barrierForHost(plan);
     state->units.textures = 1; // that images are checked on
     for (size_t i = 0; i < plan.passes.size(); ++i) {
-        auto compiled = compilePass(*shared, plan, plan.passes[i], barriers[i]);
+        auto compiled = compilePass(*shared, plan.passes[i], barriers[i]);
         if (!compiled) return compiled.error();
         UnitCounts& most = state->units;
         const UnitCounts& counts = compiled->program->units.counts;
@@ -198,7 +201,8 @@ Result<Program> compilePlan(const std::shared_ptr<const Device::Shared>& shared,
     createTextures(*state);
     createBuffers(*state);
     if (shared->timings) state->timer.emplace(state->gl, plan);
-    if (auto allocated = checkAllocations(gl, state->memory.use); !allocated) return allocated.error();
+    if (auto allocated = checkAllocations(gl, "the plan", state->memory.use.total()); !allocated)
+        return allocated.error();
     return Program(std::move(state));
 }
 
@@ -220,8 +224,25 @@ Result<Device> Device::create(const DeviceOptions& options) {
 bool Device::isEs() const { return shared->gl->es; }
 bool Device::hasTimings() const { return shared->timings; }
 
-MemoryUse Device::memoryUse(const Plan& plan) const {
-    return validate(plan) ? planMemory(plan, shared->gl->limits.alignment).use : MemoryUse{};
+Result<MemoryUse> Device::memoryUse(const Plan& plan) const {
+    if (auto valid = validate(plan); !valid) return valid.error();
+    return planMemory(plan, shared->gl->limits.alignment).use;
+}
+
+Result<Buffer> Device::createBuffer(std::span<const std::byte> data) const {
+    const Gl& gl = *shared->gl;
+    if (auto present = gl.checkPresent(creatingBuffer); !present) return present.error();
+    if (data.empty()) return invalidArgument("data is empty; at least one byte was expected");
+    if (int64_t(data.size()) > gl.limits.storageBlock)
+        return exceeds("data has ", int64_t(data.size()), "bytes", gl.limits.storageBlock);
+    if (auto valid = checkContext(gl, creatingBuffer, "createBuffer()"); !valid) return valid.error();
+    const StateGuard guard(gl, {0, 0, 0, 0});
+    auto object = std::make_shared<Object>(shared->gl, ObjectKind::buffer);
+    gl.BindBuffer(GL_UNIFORM_BUFFER, object->name());
+    gl.BufferData(GL_UNIFORM_BUFFER, GLsizeiptr(data.size()), data.data(), GL_STATIC_DRAW);
+    if (auto allocated = checkAllocations(gl, "the buffer", data.size()); !allocated)
+        return allocated.error();
+    return Buffer{object->name(), 0, data.size(), object};
 }
 
 Result<Program> Device::compile(const Plan& plan) const {

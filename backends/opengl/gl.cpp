@@ -110,6 +110,7 @@ void readLimits(Gl& gl) {
     l.uniformBlock = size;
     gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &size);
     l.storageBlock = size;
+    l.storageAlignment = gl.integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     // Both are powers of two: the larger one serves either use.
     l.alignment = size_t(std::max({gl.integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT),
                                    gl.integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT), 16}));

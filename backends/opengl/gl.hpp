@@ -27,6 +27,8 @@ namespace rebound::opengl {
     X(PFNGLISTEXTUREPROC, IsTexture)                                                                         \
     X(PFNGLBINDTEXTUREPROC, BindTexture)                                                                     \
     X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                                 \
+    X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                                 \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                     \
     X(PFNGLTEXSTORAGE2DPROC, TexStorage2D)                                                                   \
     X(PFNGLGETTEXPARAMETERIVPROC, GetTexParameteriv)                                                         \
     X(PFNGLGETTEXLEVELPARAMETERIVPROC, GetTexLevelParameteriv)                                               \
@@ -40,6 +42,9 @@ namespace rebound::opengl {
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                       \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                               \
     X(PFNGLBINDBUFFERRANGEPROC, BindBufferRange)                                                             \
+    X(PFNGLISBUFFERPROC, IsBuffer)                                                                           \
+    X(PFNGLGETBUFFERPARAMETERI64VPROC, GetBufferParameteri64v)                                               \
+    X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                                 \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                                       \
     X(PFNGLCREATESHADERPROC, CreateShader)                                                                   \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                   \
@@ -52,8 +57,6 @@ namespace rebound::opengl {
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                     \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                   \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                         \
-    X(PFNGLGETPROGRAMINTERFACEIVPROC, GetProgramInterfaceiv)                                                 \
-    X(PFNGLGETPROGRAMRESOURCEIVPROC, GetProgramResourceiv)                                                   \
     X(PFNGLISPROGRAMPROC, IsProgram)                                                                         \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                       \
     X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                 \
@@ -64,16 +67,17 @@ namespace rebound::opengl {
     X(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)
 
 struct Limits {
-    int textureSize = 0;      // of a side [texels]
-    int textures = 0;         // that a kernel reads
-    int images = 0;           // that a kernel writes
-    int uniformBlocks = 0;    // that a kernel reads
-    int storageBlocks = 0;    // that a kernel reads
-    int64_t uniformBlock = 0; // [bytes]
-    int64_t storageBlock = 0; // [bytes]
-    size_t alignment = 256;   // of uniform and storage blocks in a buffer [bytes]
-    int debugGroups = 0;      // that may be open at once
-    int labelLength = 0;      // of objects and groups [characters]
+    int textureSize = 0;            // of a side [texels]
+    int textures = 0;               // that a kernel reads
+    int images = 0;                 // that a kernel writes
+    int uniformBlocks = 0;          // that a kernel reads
+    int storageBlocks = 0;          // that a kernel reads
+    int64_t uniformBlock = 0;       // [bytes]
+    int64_t storageBlock = 0;       // [bytes]
+    size_t alignment = 256;         // of uniform and storage blocks in a buffer [bytes]
+    int64_t storageAlignment = 256; // of storage blocks alone, which hosts may hand in [bytes]
+    int debugGroups = 0;            // that may be open at once
+    int labelLength = 0;            // of objects and groups [characters]
 };
 
 struct Gl {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "image_check.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 
@@ -49,7 +50,11 @@ Result<> checkInput(const Gl& gl, const Resource& r, const std::string& what) {
               type = levelParameter(gl, GL_TEXTURE_RED_TYPE);
     const bool isStencil = (format == GL_DEPTH24_STENCIL8 || format == GL_DEPTH32F_STENCIL8) &&
                            textureParameter(gl, GL_DEPTH_STENCIL_TEXTURE_MODE) == GL_STENCIL_INDEX;
-    if (type == GL_INT || type == GL_UNSIGNED_INT || isStencil)
+    const bool isUnsigned = type == GL_UNSIGNED_INT || isStencil;
+    if (isInteger(r.format) && !isUnsigned)
+        return invalidArgument(what + ", of internal format " + hexadecimal(format) +
+                               ", holds no unsigned integers; a format that samples as such was expected");
+    if (!isInteger(r.format) && (type == GL_INT || isUnsigned))
         return invalidArgument(what + ", of internal format " + hexadecimal(format) +
                                ", holds integers; a format that samples as floats was expected");
     if (const int channels = channelCount(gl); channels < r.channels)
@@ -95,7 +100,47 @@ Result<> checkImage(const Gl& gl, const Resource& r, GLuint texture, Format outp
 } // namespace
 
 GLenum internalFormat(Format f) {
-    return f == Format::r32f ? GL_R32F : f == Format::rgba16f ? GL_RGBA16F : GL_RGBA32F;
+    switch (f) {
+    case Format::r32f:
+        return GL_R32F;
+    case Format::rgba16f:
+        return GL_RGBA16F;
+    case Format::rgba32f:
+        return GL_RGBA32F;
+    case Format::r32ui:
+        return GL_R32UI;
+    case Format::rgba32ui:
+        return GL_RGBA32UI;
+    }
+    return GL_NONE;
+}
+
+Result<> checkBuffers(const Gl& gl, const Plan& plan, const std::vector<const Buffer*>& buffers) {
+    for (size_t i = 0; i < plan.resources.size(); ++i) {
+        if (!buffers[i]) continue;
+        const Buffer& b = *buffers[i];
+        const Resource& r = plan.resources[i];
+        const std::string what = "inputs.buffers: " + r.name;
+        if (b.buffer == 0 || !gl.IsBuffer(b.buffer))
+            return invalidArgument(what + " is buffer " + std::to_string(b.buffer) +
+                                   ", which does not exist or has been deleted");
+        if (int64_t(b.offset) % gl.limits.storageAlignment != 0)
+            return invalidArgument(what + " has the offset " + std::to_string(b.offset) + "; a multiple of " +
+                                   std::to_string(gl.limits.storageAlignment) + " was expected");
+        if (b.size < r.size) return detail::smallBuffer(r, b.size);
+        GLint64 held = 0;
+        gl.BindBuffer(GL_UNIFORM_BUFFER, b.buffer);
+        gl.GetBufferParameteri64v(GL_UNIFORM_BUFFER, GL_BUFFER_SIZE, &held);
+        if (size_t(held) < b.offset + r.size)
+            return detail::smallBuffer(r, size_t(held) - std::min(size_t(held), b.offset));
+        for (size_t j = 0; j < plan.resources.size(); ++j)
+            if (r.kind == ResourceKind::outputBuffer && j != i && buffers[j] &&
+                buffers[j]->buffer == b.buffer)
+                return invalidArgument(what + " and " + plan.resources[j].name + " are both buffer " +
+                                       std::to_string(b.buffer) +
+                                       "; an output buffer of its own was expected");
+    }
+    return {};
 }
 
 Result<> checkImages(const Gl& gl, const Plan& plan, const std::vector<const Image*>& images,

@@ -4,6 +4,7 @@
 
 #include "gl.hpp"
 
+#include <array>
 #include <vector>
 
 namespace rebound::opengl {
@@ -13,17 +14,20 @@ namespace rebound::opengl {
 struct TextureUse {
     Format format = Format::rgba16f;
     Extent2D extent;
-    std::string label; // the transients' names
-    int lastPass = -1;
+    std::string label;       // the transients' names
+    int lastPass = -1;       // of transients
+    bool isShareable = true; // whether it is one of transients
 };
 
+// One object of OpenGL holds all buffers of a kind.
+enum class BufferGroup { tables, frameConstants, transient, persistent, none };
+BufferGroup bufferGroupOf(ResourceKind);
+
 struct MemoryPlan {
-    std::vector<TextureUse> textures;
-    std::vector<int> textureOf; // by resource: index into textures; -1: none
-    std::vector<size_t>
-        bufferOffsets;         // by resource, of buffers and of frame constants, each in a buffer of its own
-    size_t buffers = 0;        // of the plan's buffers together [bytes]
-    size_t frameConstants = 0; // together [bytes]
+    std::vector<TextureUse> textures; // of transients and of history
+    std::vector<int> textureOf; // by resource: index into textures, of history the first of two; -1: none
+    std::vector<size_t> bufferOffsets;      // by resource, in its group's buffer [bytes]
+    std::array<size_t, 4> bufferSizes = {}; // by group [bytes]
     MemoryUse use;
 };
 
@@ -33,9 +37,7 @@ MemoryPlan planMemory(const Plan&, size_t alignment);
 // Bits of glMemoryBarrier before each pass, for what earlier passes and the frame before have left under way.
 std::vector<GLbitfield> barriersBefore(const Plan&, const MemoryPlan&);
 
-// For a host that samples, reads back, copies, or draws on what kernels wrote.
-inline constexpr GLbitfield barrierForHost = GL_TEXTURE_FETCH_BARRIER_BIT |
-                                             GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                                             GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
+// For a host that samples, reads back, copies, or draws on what kernels of the plan wrote.
+GLbitfield barrierForHost(const Plan&);
 
 } // namespace rebound::opengl

@@ -6,6 +6,7 @@
 #include "pass_timer.hpp"
 #include "shader_program.hpp"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,6 +30,7 @@ struct CompiledPass {
         GLuint unit = 0;
         ResourceIndex resource = 0;
         Format format = Format::rgba16f; // of images that are written
+        Access access = Access::read;
     };
     std::shared_ptr<const ShaderProgram> program;
     std::vector<Slot> slots;
@@ -44,8 +46,11 @@ struct Program::State {
     UnitCounts units;                  // the most that a pass uses
     std::vector<Format> outputFormats; // by resource, as kernels declare them
     std::vector<CompiledPass> passes;
-    std::vector<Object> textures; // as in memory.textures
-    Object buffers, frameConstants;
+    std::vector<Object> textures;  // as in memory.textures
+    std::array<Object, 4> buffers; // by BufferGroup; none where nothing is in it
+    GLbitfield barrierBehind = 0;  // for the host
+    detail::FrameCount frames;
+    int historyWritten = 0; // the texture of history that the latest frame has written
     // Nearest texel, no comparison: kernels fetch whole texels, and a texture's own sampler may make it
     // incomplete, as the default one does where there are no mip maps.
     Object sampler;

@@ -50,21 +50,6 @@ Result<> link(const Gl& gl, GLuint program, const Shader& shader) {
     return refused(shader, "link", log);
 }
 
-// What blocks of a kind hold at least, into the slots that they are declared for. Blocks that the kernel does
-// not use are left out by the driver.
-void readSizes(const Gl& gl, ShaderProgram& p, GLenum interface, BindingKind kind) {
-    GLint count = 0;
-    gl.GetProgramInterfaceiv(p.program.name(), interface, GL_ACTIVE_RESOURCES, &count);
-    for (GLuint i = 0; i < GLuint(count); ++i) {
-        const GLenum properties[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
-        GLint values[2] = {-1, 0};
-        gl.GetProgramResourceiv(p.program.name(), interface, i, 2, properties, 2, nullptr, values);
-        for (int slot = 0; slot < slotCount; ++slot)
-            if (p.info.kinds[slot] == kind && p.units.bySlot[slot] == values[0])
-                p.info.sizes[slot] = size_t(values[1]);
-    }
-}
-
 } // namespace
 
 Units unitsOf(const KernelInfo& info) {
@@ -74,6 +59,8 @@ Units unitsOf(const KernelInfo& info) {
             break;
         case BindingKind::texture:
         case BindingKind::input:
+        case BindingKind::uintTexture:
+        case BindingKind::uintInput:
             units.bySlot[slot] = units.counts.textures++;
             break;
         case BindingKind::image:
@@ -81,6 +68,8 @@ Units unitsOf(const KernelInfo& info) {
             units.bySlot[slot] = units.counts.images++;
             break;
         case BindingKind::buffer:
+        case BindingKind::values:
+        case BindingKind::outputValues:
             units.bySlot[slot] = units.counts.storageBlocks++;
             break;
         case BindingKind::constants:
@@ -117,14 +106,11 @@ buildProgram(const std::shared_ptr<const Gl>& gl, const Shader& shader, const st
     auto built = std::make_shared<ShaderProgram>();
     built->program = Object(gl, ObjectKind::program);
     built->units = unitsOf(shader.info);
-    built->info = shader.info;
     const GLuint name = built->program.name();
     if (auto attached = attachShader(*gl, name, shader, sourceOf(shader, features, gl->es)); !attached)
         return attached.error();
     if (auto linked = link(*gl, name, shader); !linked) return linked.error();
     gl->label(GL_PROGRAM, name, shader.name);
-    readSizes(*gl, *built, GL_UNIFORM_BLOCK, BindingKind::constants);
-    readSizes(*gl, *built, GL_SHADER_STORAGE_BLOCK, BindingKind::buffer);
     return std::shared_ptr<const ShaderProgram>(std::move(built));
 }
 

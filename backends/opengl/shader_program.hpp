@@ -20,7 +20,6 @@ Units unitsOf(const KernelInfo&);
 struct ShaderProgram {
     Object program;
     Units units;
-    KernelInfo info; // of the shader, with the sizes that the driver reports
 };
 
 // The text that the driver gets: version, features, and the kernel with units in place of slots.

@@ -16,11 +16,16 @@ Result<> checkLimits(const Device::Shared& d, const Plan& plan) {
     for (const Resource& r : plan.resources) {
         const std::string what = "plan.resources: " + r.name;
         const uint32_t side = uint32_t(std::max(r.extent.width, r.extent.height));
-        if (detail::isImage(r.kind) && side > d.limits.maxImageDimension2D)
+        if (isImage(r.kind) && side > d.limits.maxImageDimension2D)
             return Error{ErrorCode::unsupported,
                          what + " is " + detail::toText(r.extent) + "; this device's images have at most " +
                              std::to_string(d.limits.maxImageDimension2D) + " texels a side"};
-        if (r.kind == ResourceKind::frameConstants && r.size > d.limits.maxUniformBufferRange)
+        const bool isConstants = r.kind == ResourceKind::frameConstants || r.kind == ResourceKind::frameState;
+        if (!isImage(r.kind) && !isConstants && r.size > d.limits.maxStorageBufferRange)
+            return Error{ErrorCode::unsupported, what + " has " + std::to_string(r.size) +
+                                                     " bytes; this device's storage buffers have at most " +
+                                                     std::to_string(d.limits.maxStorageBufferRange)};
+        if (isConstants && r.size > d.limits.maxUniformBufferRange)
             return Error{ErrorCode::unsupported, what + " has " + std::to_string(r.size) +
                                                      " bytes; this device's constants have at most " +
                                                      std::to_string(d.limits.maxUniformBufferRange)};
@@ -60,30 +65,37 @@ Result<> bindTransients(State& s, const State* sharing) {
         if (!memory) return memory.error();
         s.transientMemory = *std::move(memory);
     }
-    for (size_t i = 0; i < s.transients.images.size(); ++i) {
-        TransientImage& t = s.transients.images[i];
-        if (!t.image) continue;
+    for (size_t i = 0; i < s.plan.resources.size(); ++i) {
         const Resource& r = s.plan.resources[i];
-        const VkDeviceSize offset = s.transientMemory->block.offset + s.transients.layout.offsets[i];
-        if (auto bound =
-                d.check(d.vk.BindImageMemory(d.device, t.image, s.transientMemory->block.memory, offset),
-                        "binding memory to " + r.name);
-            !bound)
-            return bound;
-        auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
-        info.image = t.image;
-        info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-        info.format = vulkanFormat(r.format);
-        info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        if (auto made = d.check(d.vk.CreateImageView(d.device, &info, nullptr, &t.view),
-                                "creating a view of " + r.name);
-            !made)
-            return made;
+        const VkDeviceSize offset = s.transients.layout.offsets[i];
+        if (OwnImage& own = s.transients.images[i]; own.image)
+            if (auto bound = bindImage(d, r, *s.transientMemory, offset, own); !bound) return bound;
+        if (const OwnBuffer& own = s.transients.buffers[i]; own.buffer)
+            if (auto bound = bindBuffer(d, r.name, *s.transientMemory, offset, own); !bound) return bound;
     }
     return {};
 }
 
-Result<> createBuffer(State& s) {
+Result<> bindPersistent(State& s) {
+    Persistent& p = s.persistent;
+    if (p.block.size == 0) return {};
+    auto memory = allocateMemory(s.device, {p.block, false});
+    if (!memory) return memory.error();
+    s.persistentMemory = *std::move(memory);
+    for (size_t i = 0; i < s.plan.resources.size(); ++i) {
+        const Resource& r = s.plan.resources[i];
+        for (size_t k = 0; k < 2; ++k)
+            if (OwnImage& own = p.images[i][k]; own.image)
+                if (auto bound = bindImage(*s.device, r, *s.persistentMemory, p.offsets[i][k], own); !bound)
+                    return bound;
+        if (const OwnBuffer& own = p.buffers[i]; own.buffer)
+            if (auto bound = bindBuffer(*s.device, r.name, *s.persistentMemory, p.offsets[i][0], own); !bound)
+                return bound;
+    }
+    return {};
+}
+
+Result<> createTables(State& s) {
     const Device::Shared& d = *s.device;
     if (s.bufferLayout.size == 0) return {};
     auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
@@ -103,10 +115,15 @@ Result<> createBuffer(State& s) {
     for (size_t i = 0; i < s.plan.resources.size(); ++i)
         if (const Resource& r = s.plan.resources[i]; r.kind == ResourceKind::buffer)
             std::memcpy(static_cast<std::byte*>(s.bufferMemory->block.mapped) + s.bufferLayout.offsets[i],
-                        r.data.data(), r.size);
+                        r.data->data(), r.size);
     return d.check(
         d.vk.BindBufferMemory(d.device, s.buffer, s.bufferMemory->block.memory, s.bufferMemory->block.offset),
         "binding memory to a buffer");
+}
+
+// What record() binds: the host's, and of history one of two images.
+bool changesEachFrame(ResourceKind kind) {
+    return isHostImage(kind) || isHostBuffer(kind) || kind == ResourceKind::history;
 }
 
 Result<> compilePasses(State& s) {
@@ -119,15 +136,14 @@ Result<> compilePasses(State& s) {
         auto pipeline = obtainPipeline(*s.device, shader, pass.features);
         if (!pipeline) return pipeline.error();
         compiled.pipeline = *pipeline;
-        const auto groups = [](int side) { return uint32_t((side + shaderGroupSize - 1) / shaderGroupSize); };
-        compiled.groups = {groups(pass.grid.width), groups(pass.grid.height)};
+        compiled.groups = groupCounts(pass);
         for (const PassBinding& b : pass.bindings) {
             const ResourceKind kind = s.plan.resources[size_t(b.resource)].kind;
-            if (kind == ResourceKind::input || kind == ResourceKind::output) compiled.external.push_back(b);
+            if (changesEachFrame(kind)) compiled.perFrame.push_back(b);
         }
         s.passes.push_back(std::move(compiled));
     }
-    schedulePasses(s.plan, s.transients.layout, s.transients.images, s.device->timestampBits > 0, s.passes);
+    schedulePasses(s.plan, s.transients, s.device->timestampBits > 0, s.passes);
     return {};
 }
 
@@ -162,7 +178,7 @@ Result<> allocateSets(State& s) {
     return d.check(d.vk.AllocateDescriptorSets(d.device, &info, s.sets.data()), "allocating descriptor sets");
 }
 
-// Everything but the host's images, which every frame brings anew.
+// Everything but what changes from frame to frame.
 void writeSet(const State& s, int frame, size_t passIndex) {
     const Pass& pass = s.plan.passes[passIndex];
     const Shader& shader = *detail::findShader(s.device->shaders, pass.kernel);
@@ -172,7 +188,7 @@ void writeSet(const State& s, int frame, size_t passIndex) {
     for (size_t i = 0; i < pass.bindings.size(); ++i) {
         const PassBinding& b = pass.bindings[i];
         const Resource& r = s.plan.resources[size_t(b.resource)];
-        if (r.kind == ResourceKind::input || r.kind == ResourceKind::output) continue;
+        if (changesEachFrame(r.kind)) continue;
         auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstSet = s.sets[size_t(frame) * s.passes.size() + passIndex];
         write.dstBinding = uint32_t(b.slot);
@@ -182,10 +198,13 @@ void writeSet(const State& s, int frame, size_t passIndex) {
             images[i] = {VK_NULL_HANDLE, s.transients.images[size_t(b.resource)].view,
                          VK_IMAGE_LAYOUT_GENERAL};
             write.pImageInfo = &images[i];
+        } else if (isTransient(r.kind) || isPersistent(r.kind)) {
+            const auto& own = isTransient(r.kind) ? s.transients.buffers : s.persistent.buffers;
+            buffers[i] = {own[size_t(b.resource)].buffer, 0, r.size};
+            write.pBufferInfo = &buffers[i];
         } else {
             VkDeviceSize offset = s.bufferLayout.offsets[size_t(b.resource)];
-            if (r.kind == ResourceKind::frameConstants)
-                offset += s.bufferLayout.frameStride * VkDeviceSize(frame);
+            if (r.kind != ResourceKind::buffer) offset += s.bufferLayout.frameStride * VkDeviceSize(frame);
             buffers[i] = {s.buffer, offset, r.size};
             write.pBufferInfo = &buffers[i];
         }
@@ -196,7 +215,6 @@ void writeSet(const State& s, int frame, size_t passIndex) {
 
 Result<> createQueries(State& s) {
     const Device::Shared& d = *s.device;
-    s.measured.assign(size_t(s.framesInFlight), false);
     if (d.timestampBits == 0 || s.passes.empty()) return {};
     auto info = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -212,7 +230,8 @@ Program::State::~State() {
     if (queries) vk.DestroyQueryPool(device->device, queries, nullptr);
     if (descriptorPool) vk.DestroyDescriptorPool(device->device, descriptorPool, nullptr);
     if (buffer) vk.DestroyBuffer(device->device, buffer, nullptr);
-    destroyTransients(*device, transients);
+    destroy(*device, transients);
+    destroy(*device, persistent);
 }
 
 Result<MemoryUse> Device::memoryUse(const Plan& plan, const CompileOptions& options) const {
@@ -224,7 +243,11 @@ Result<MemoryUse> Device::memoryUse(const Plan& plan, const CompileOptions& opti
     use.transient = options.shareTransientsWith ? 0 : transients->layout.size;
     use.transientUnshared = transients->layout.sizeUnshared;
     use.buffers = size_t(layoutBuffers(*shared, plan, options.framesInFlight).size);
-    destroyTransients(*shared, *transients);
+    destroy(*shared, *transients);
+    auto persistent = createPersistent(*shared, plan, options.inspectable);
+    if (!persistent) return persistent.error();
+    use.persistent = size_t(persistent->block.size);
+    destroy(*shared, *persistent);
     return use;
 }
 
@@ -244,8 +267,13 @@ Result<Program> Device::compile(const Plan& plan, const CompileOptions& options)
     const Program::State* sharing =
         options.shareTransientsWith ? options.shareTransientsWith->state.get() : nullptr;
     if (auto bound = bindTransients(*state, sharing); !bound) return bound.error();
+    auto persistent = createPersistent(*shared, plan, options.inspectable);
+    if (!persistent) return persistent.error();
+    state->persistent = *std::move(persistent);
+    state->use.persistent = size_t(state->persistent.block.size);
+    if (auto bound = bindPersistent(*state); !bound) return bound.error();
     state->bufferLayout = layoutBuffers(*shared, plan, options.framesInFlight);
-    if (auto made = createBuffer(*state); !made) return made.error();
+    if (auto made = createTables(*state); !made) return made.error();
     if (auto compiled = compilePasses(*state); !compiled) return compiled.error();
     if (auto allocated = allocateSets(*state); !allocated) return allocated.error();
     for (int frame = 0; frame < options.framesInFlight; ++frame)

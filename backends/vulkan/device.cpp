@@ -161,6 +161,36 @@ Result<Device> Device::create(const DeviceOptions& options) {
     return device;
 }
 
+Result<Buffer> Device::createBuffer(std::span<const std::byte> data) const {
+    struct Held {
+        std::shared_ptr<const Shared> device;
+        std::shared_ptr<OwnedMemory> memory;
+        OwnBuffer own;
+
+        Held() = default;
+        Held(const Held&) = delete;
+        Held& operator=(const Held&) = delete;
+        ~Held() {
+            if (own.buffer) device->vk.DestroyBuffer(device->device, own.buffer, nullptr);
+        }
+    };
+    const Shared& d = *shared;
+    if (auto present = d.loss.check(); !present) return present.error();
+    if (data.empty()) return invalidArgument("data is empty; at least one byte was expected");
+    auto held = std::make_shared<Held>();
+    held->device = shared;
+    auto own = createOwnBuffer(d, "shared buffer", data.size(), 0);
+    if (!own) return own.error();
+    held->own = *own;
+    auto memory = allocateMemory(shared, {own->requirements, true});
+    if (!memory) return memory.error();
+    held->memory = *std::move(memory);
+    if (auto bound = bindBuffer(d, "a shared buffer", *held->memory, 0, held->own); !bound)
+        return bound.error();
+    std::memcpy(held->memory->block.mapped, data.data(), data.size());
+    return Buffer{held->own.buffer, 0, data.size(), held};
+}
+
 Result<std::vector<std::byte>> Device::pipelineCache() const {
     const Shared& d = *shared;
     if (auto present = d.loss.check(); !present) return present.error();

@@ -60,6 +60,8 @@ constexpr VkDescriptorType descriptorType(BindingKind kind) {
     case BindingKind::output:
         return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     case BindingKind::buffer:
+    case BindingKind::values:
+    case BindingKind::outputValues:
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     case BindingKind::constants:
         return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
@@ -82,17 +84,35 @@ struct OwnedMemory {
 Result<std::shared_ptr<OwnedMemory>> allocateMemory(const std::shared_ptr<const Device::Shared>&,
                                                     const MemoryRequest&);
 
-struct TransientImage {
+// Without memory yet, or bound to some.
+struct OwnImage {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkMemoryRequirements requirements{};
 };
+struct OwnBuffer {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkMemoryRequirements requirements{};
+};
 
-// The transients of a plan: images without memory, and where each lies in the block that they share.
+// The transients of a plan, and where each lies in the block that they share.
 struct Transients {
-    std::vector<TransientImage> images; // by resource; null where it is no transient that passes use
+    std::vector<OwnImage> images;   // by resource; null where it is no transient that passes use
+    std::vector<OwnBuffer> buffers; // likewise
     TransientLayout layout;
     VkMemoryRequirements block{}; // what the shared block needs; its size is 0 where there is none
+
+    size_t sizeOf(ResourceIndex r) const { // 0 where it is no transient that passes use
+        return size_t(images[size_t(r)].requirements.size + buffers[size_t(r)].requirements.size);
+    }
+};
+
+// What a program keeps from frame to frame, and where each lies in one block.
+struct Persistent {
+    std::vector<std::array<OwnImage, 2>> images;      // by resource; of history
+    std::vector<OwnBuffer> buffers;                   // by resource
+    std::vector<std::array<VkDeviceSize, 2>> offsets; // by resource; of history two [bytes]
+    VkMemoryRequirements block{};
 };
 
 // Where a plan's buffers and frame constants lie in one host-visible buffer.
@@ -106,8 +126,8 @@ struct BufferLayout {
 struct CompiledPass {
     const Kernel* kernel = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    std::array<uint32_t, 2> groups{};
-    std::vector<PassBinding> external;    // images of the host, bound by record()
+    GroupCounts groups;
+    std::vector<PassBinding> perFrame;    // bound by record(): what is the host's, and history
     bool barrier = false;                 // whether earlier passes have to be done
     std::vector<ResourceIndex> beginning; // transients whose contents are given up before this pass
 };
@@ -120,13 +140,17 @@ struct Program::State {
     bool inspectable = false;
     std::shared_ptr<OwnedMemory> transientMemory;
     Transients transients;
+    std::shared_ptr<OwnedMemory> persistentMemory;
+    Persistent persistent;
+    detail::FrameCount frames;
+    int historyWritten = 0; // the image of history that the latest frame writes
     std::shared_ptr<OwnedMemory> bufferMemory;
     BufferLayout bufferLayout;
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDescriptorPool descriptorPool = VK_NULL_HANDLE;
     std::vector<VkDescriptorSet> sets;    // frame * passes + pass
     VkQueryPool queries = VK_NULL_HANDLE; // frame * (passes + 1) + pass: its beginning; one more: the end
-    std::vector<bool> measured;           // by frame: whether its queries were ever recorded
+    std::vector<int> measured;            // frames whose queries were recorded, the latest last
     std::vector<CompiledPass> passes;
     std::function<void(VkCommandBuffer, int)> passCallback;
 
@@ -142,12 +166,20 @@ Result<VkPipeline> obtainPipeline(Device::Shared&, const Shader&, const std::vec
 
 // resources.cpp
 Result<Transients> createTransients(const Device::Shared&, const Plan&, bool inspectable);
-void destroyTransients(const Device::Shared&, Transients&);
+void destroy(const Device::Shared&, Transients&);
+Result<Persistent> createPersistent(const Device::Shared&, const Plan&, bool inspectable);
+void destroy(const Device::Shared&, Persistent&);
+// To memory from an offset on; and a view of it.
+Result<> bindImage(const Device::Shared&, const Resource&, const OwnedMemory&, VkDeviceSize offset,
+                   OwnImage&);
+Result<> bindBuffer(const Device::Shared&, const std::string& name, const OwnedMemory&, VkDeviceSize offset,
+                    const OwnBuffer&);
+Result<OwnBuffer> createOwnBuffer(const Device::Shared&, const std::string& name, VkDeviceSize size,
+                                  VkBufferUsageFlags);
 BufferLayout layoutBuffers(const Device::Shared&, const Plan&, int framesInFlight);
 
 // schedule.cpp
 // Where barriers go, and where each transient begins its life.
-void schedulePasses(const Plan&, const TransientLayout&, const std::vector<TransientImage>&, bool separate,
-                    std::vector<CompiledPass>&);
+void schedulePasses(const Plan&, const Transients&, bool separate, std::vector<CompiledPass>&);
 
 } // namespace rebound::vulkan

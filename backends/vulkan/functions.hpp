@@ -29,6 +29,8 @@ T structure(VkStructureType type) {
     F(BindImageMemory)                                                                                       \
     F(CmdBindDescriptorSets)                                                                                 \
     F(CmdBindPipeline)                                                                                       \
+    F(CmdClearColorImage)                                                                                    \
+    F(CmdFillBuffer)                                                                                         \
     F(CmdDispatch)                                                                                           \
     F(CmdPipelineBarrier)                                                                                    \
     F(CmdResetQueryPool)                                                                                     \

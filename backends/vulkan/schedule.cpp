@@ -9,23 +9,24 @@ namespace {
 
 // Whether two resources may touch the same memory.
 struct Overlap {
-    const TransientLayout& layout;
-    const std::vector<TransientImage>& images;
+    const Transients& transients;
 
     bool operator()(ResourceIndex a, ResourceIndex b) const {
         if (a == b) return true;
-        if (!images[size_t(a)].image || !images[size_t(b)].image) return false;
-        return begin(a) < end(b) && begin(b) < end(a);
+        return transients.sizeOf(a) > 0 && transients.sizeOf(b) > 0 && begin(a) < end(b) && begin(b) < end(a);
     }
-    size_t begin(ResourceIndex r) const { return layout.offsets[size_t(r)]; }
-    size_t end(ResourceIndex r) const { return begin(r) + size_t(images[size_t(r)].requirements.size); }
+    size_t begin(ResourceIndex r) const { return transients.layout.offsets[size_t(r)]; }
+    size_t end(ResourceIndex r) const { return begin(r) + transients.sizeOf(r); }
 };
 
 bool dependsOn(const Pass& later, const Pass& earlier, const Overlap& overlap) {
     for (const PassBinding& l : later.bindings)
-        for (const PassBinding& e : earlier.bindings)
-            if ((l.access == Access::write || e.access == Access::write) && overlap(l.resource, e.resource))
-                return true;
+        for (const PassBinding& e : earlier.bindings) {
+            const bool writes = l.access == Access::write || e.access == Access::write;
+            // What the frame before has left lies in an image of its own.
+            const bool isPrevious = l.access == Access::readPrevious || e.access == Access::readPrevious;
+            if (writes && !isPrevious && overlap(l.resource, e.resource)) return true;
+        }
     return false;
 }
 
@@ -36,10 +37,9 @@ bool uses(const Pass& pass, ResourceIndex r, const Overlap& overlap) {
 
 } // namespace
 
-void schedulePasses(const Plan& plan, const TransientLayout& layout,
-                    const std::vector<TransientImage>& images, bool separate,
+void schedulePasses(const Plan& plan, const Transients& transients, bool separate,
                     std::vector<CompiledPass>& passes) {
-    const Overlap overlap{layout, images};
+    const Overlap overlap{transients};
     size_t lastBarrier = 0;
     for (size_t i = 0; i < passes.size(); ++i) {
         // The first barrier waits for the frame before, which had the same memory.
@@ -49,8 +49,8 @@ void schedulePasses(const Plan& plan, const TransientLayout& layout,
         if (passes[i].barrier) lastBarrier = i;
     }
     const std::vector<Lifetime> lives = lifetimes(plan);
-    for (size_t r = 0; r < images.size(); ++r) {
-        if (!images[r].image) continue;
+    for (size_t r = 0; r < lives.size(); ++r) {
+        if (!transients.images[r].image) continue;
         // A barrier stands between the last use of its memory and its own first, as that use is a dependency.
         size_t earliest = 0;
         for (size_t i = 0; i < size_t(lives[r].first); ++i)

@@ -46,6 +46,33 @@ struct GBufferConventions {
     NormalEncoding normalEncoding = NormalEncoding::signedUnit;
 };
 
+enum class MotionUnit {
+    pixels,
+    textureCoordinates, // the picture is 1 wide and 1 high; y runs with the rows, as the image is stored
+    normalizedDevice,   // the picture is 2 wide and 2 high; y runs as the projection's
+};
+enum class MotionDirection {
+    toPrevious,  // where the surface was, less where it is
+    fromPrevious // where it is, less where it was
+};
+
+// How motion vectors were written.
+struct MotionConventions {
+    MotionUnit unit = MotionUnit::pixels;
+    MotionDirection direction = MotionDirection::toPrevious;
+};
+
+// Factors of a stored motion vector that make of it the way from where a surface is to where it was, along the image's
+// columns and rows [pixels].
+inline glm::vec2 motionToPixels(const MotionConventions& motion, const GBufferConventions& conventions,
+                                Extent2D extent) {
+    const glm::vec2 size(extent.width, extent.height);
+    const float sign = motion.direction == MotionDirection::toPrevious ? 1.0f : -1.0f;
+    if (motion.unit == MotionUnit::pixels) return glm::vec2(sign);
+    if (motion.unit == MotionUnit::textureCoordinates) return sign * size;
+    return sign * 0.5f * size * glm::vec2(1.0f, conventions.firstRow == FirstRow::top ? -1.0f : 1.0f);
+}
+
 // The matrices with which the G-buffer was rendered; column vectors, as GLM has them.
 struct Camera {
     glm::mat4 view{1.0f};       // world to view space: a rotation and a translation
@@ -55,6 +82,7 @@ struct Camera {
 namespace detail {
 #include "rebound/math/uniform_types.h"
 #include "rebound/techniques/camera_constants.h"
+#include "rebound/techniques/reprojection_constants.h"
 
 inline const char* name(Projection p) {
     return p == Projection::perspective ? "perspective" : "orthographic";
@@ -179,6 +207,21 @@ inline Result<CameraConstants> cameraConstants(const Camera& camera, const GBuff
     k.normalY = glm::vec4(rotation[0].y, rotation[1].y, rotation[2].y, bias.y);
     k.normalZ = glm::vec4(rotation[0].z, rotation[1].z, rotation[2].z, bias.z);
     return k;
+}
+
+using ReprojectionConstants = detail::ReprojectionConstants;
+
+// Where surfaces that one camera sees, and that have not moved in the world, lie in the picture of another: of the frame
+// before, or of another eye. Both pictures have that size and those conventions.
+inline ReprojectionConstants reprojection(const Camera& from, const Camera& to,
+                                          const GBufferConventions& conventions, Extent2D extent) {
+    glm::dmat4 toEngine(1.0); // from the view space of CameraConstants, whose z is a distance
+    toEngine[2][2] = conventions.handedness == Handedness::right ? -1.0 : 1.0;
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(to.projection) * glm::dmat4(to.view) *
+                                           glm::inverse(glm::dmat4(from.view)) * toEngine);
+    const double down = conventions.firstRow == FirstRow::top ? -1.0 : 1.0;
+    return {glm::vec4(0.5 * extent.width * (rows[0] + rows[3])),
+            glm::vec4(0.5 * extent.height * (down * rows[1] + rows[3])), glm::vec4(rows[3])};
 }
 
 } // namespace rebound

@@ -4,12 +4,14 @@
 #pragma once
 
 #include "rebound/extent.hpp"
+#include "rebound/kernel/kernel_interface.h"
 #include "rebound/result.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -17,36 +19,76 @@
 
 namespace rebound {
 
-// Formats of images, as GPUs store them. A CPU stores 32-bit floats, and only the channels in use.
-enum class Format { r32f, rgba16f, rgba32f };
 inline constexpr size_t bytesPerTexel(Format f) {
-    return f == Format::r32f ? 4 : f == Format::rgba16f ? 8 : 16;
+    return f == Format::r32f || f == Format::r32ui ? 4 : f == Format::rgba16f ? 8 : 16;
 }
-inline constexpr const char* name(Format f) {
-    return f == Format::r32f ? "r32f" : f == Format::rgba16f ? "rgba16f" : "rgba32f";
-}
+inline constexpr bool isInteger(Format f) { return f == Format::r32ui || f == Format::rgba32ui; }
+const char* name(Format);
 
 enum class ResourceKind {
-    input,          // an image of the host, read
-    output,         // an image of the host, written
-    transient,      // an image of the device's own, that lives from its first pass to its last
-    buffer,         // data that the plan holds and the device uploads once
-    frameConstants, // a block of constants that the host hands in with each frame
+    input,     // an image of the host, read
+    output,    // an image of the host, written
+    transient, // an image of the device's own, that lives from its first pass to its last
+    history, // two images of the device's own that change places with each frame: passes write one, and read
+             // what the frame before left in the other
+    buffer,  // data that the plan holds and the device uploads once; for tables of some kilobytes
+    inputBuffer,  // a buffer of the host or of Device::createBuffer(), read; any number of programs share it
+    outputBuffer, // a buffer of the host, written
+    transientBuffer,  // a buffer of the device's own, that lives from its first pass to its last
+    persistentBuffer, // a buffer of the device's own that keeps its contents from frame to frame
+    frameConstants,   // a block of constants that the host hands in with each frame
+    frameState,       // FrameState, which the device fills in
 };
+const char* name(ResourceKind);
+inline constexpr bool isImage(ResourceKind k) {
+    return k == ResourceKind::input || k == ResourceKind::output || k == ResourceKind::transient ||
+           k == ResourceKind::history;
+}
+// Images and buffers that live within a frame, and share memory.
+inline constexpr bool isTransient(ResourceKind k) {
+    return k == ResourceKind::transient || k == ResourceKind::transientBuffer;
+}
+// What the device keeps from frame to frame.
+inline constexpr bool isPersistent(ResourceKind k) {
+    return k == ResourceKind::history || k == ResourceKind::persistentBuffer;
+}
+// Buffers of the host.
+inline constexpr bool isHostBuffer(ResourceKind k) {
+    return k == ResourceKind::inputBuffer || k == ResourceKind::outputBuffer;
+}
+inline constexpr bool isHostImage(ResourceKind k) {
+    return k == ResourceKind::input || k == ResourceKind::output;
+}
+inline constexpr bool isWritable(ResourceKind k) {
+    return k == ResourceKind::output || k == ResourceKind::outputBuffer || isTransient(k) || isPersistent(k);
+}
+
+// Data that copies of a plan and its programs share.
+using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
 
 struct Resource {
     std::string name;
     ResourceKind kind = ResourceKind::transient;
-    Format format = Format::rgba32f; // of images; of input and output: what GPUs are advised to use
-    int channels = 4;                // channels in use, 1 to 4
-    Extent2D extent;                 // of images [texels]
-    std::vector<std::byte> data;     // of buffers
-    size_t size = 0;                 // of buffers and frame constants [bytes]
+    Format format =
+        Format::rgba32f; // of images; of input and output: what GPUs are advised to use. Of buffers of
+                         // numbers: r32f of floats, r32ui of integers
+    int channels = 4;    // channels in use, 1 to 4
+    Extent2D extent;     // of images [texels]
+    SharedBytes data;    // of buffers that the plan holds
+    size_t size = 0;     // of buffers and constants [bytes]
 };
+
+// What kernels know of the frames before: the device's own constants, of kind frameState. As FrameState in
+// rebound/kernel/frame_state.h.
+Resource frameStateResource();
 
 using ResourceIndex = int;
 
-enum class Access { read, write };
+enum class Access {
+    read,
+    write,
+    readPrevious, // of history: what the frame before has left; zeros in the first frame, and after Program::reset()
+};
 
 struct PassBinding {
     int slot = 0;               // as the kernel declares it
@@ -60,6 +102,7 @@ struct Pass {
     std::vector<int> features; // values of the kernel's features, by their number
     std::vector<PassBinding> bindings;
     Extent2D grid; // pixels that the kernel runs for
+    int items = 0; // of a kernel for items, which has no grid: how many, 1 to maximumItems
 };
 
 struct Plan {
@@ -83,10 +126,12 @@ struct Plan {
 template <class T>
 Resource bufferResource(std::string name, const std::vector<T>& elements) {
     static_assert(std::is_trivially_copyable_v<T>);
-    Resource r{std::move(name), ResourceKind::buffer, Format::r32f, 1, {}, {}, 0};
+    constexpr Format format = std::is_integral_v<T> ? Format::r32ui : Format::r32f;
+    Resource r{std::move(name), ResourceKind::buffer, format, 1, {}, {}, 0};
     r.size = elements.size() * sizeof(T);
-    r.data.resize(r.size);
-    if (r.size > 0) std::memcpy(r.data.data(), elements.data(), r.size);
+    std::vector<std::byte> bytes(r.size);
+    if (r.size > 0) std::memcpy(bytes.data(), elements.data(), r.size);
+    r.data = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
     return r;
 }
 
@@ -122,7 +167,7 @@ inline TransientLayout layoutTransients(const Plan& plan, const std::vector<size
     const std::vector<Lifetime> lives = lifetimes(plan);
     std::vector<size_t> order;
     for (size_t i = 0; i < plan.resources.size(); ++i)
-        if (plan.resources[i].kind == ResourceKind::transient && lives[i].last >= 0) order.push_back(i);
+        if (isTransient(plan.resources[i].kind) && lives[i].last >= 0) order.push_back(i);
     std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return sizes[a] > sizes[b]; });
 
     TransientLayout layout{std::vector<size_t>(plan.resources.size(), 0), 0, 0};
@@ -147,41 +192,64 @@ inline TransientLayout layoutTransients(const Plan& plan, const std::vector<size
     return layout;
 }
 
-// Memory that a plan takes on a device [bytes]. Images that the host hands in are not counted.
+// Memory that a plan takes on a device [bytes]. What the host hands in is not counted, buffers of Device::createBuffer()
+// neither.
 struct MemoryUse {
     size_t transient = 0;         // the block that transients share
     size_t transientUnshared = 0; // what they would take without sharing
-    size_t buffers = 0;
-    size_t total() const { return transient + buffers; }
+    size_t buffers = 0;           // tables and constants
+    size_t persistent = 0;        // history, both images, and persistent buffers
+    size_t total() const { return transient + buffers + persistent; }
 };
 
-// Checks what every device relies on: names and labels unique, bindings in range, each transient and output written
-// before it is read, never read and written by one pass, extents within 1 to maximumExtent, at most 16 slots and 4
+inline constexpr int maximumItems = 1 << 30;
+inline constexpr size_t maximumBufferSize = size_t(1) << 32; // [bytes]
+
+// Checks what every device relies on: names and labels unique, bindings in range, what lives within a frame written
+// before it is read, nothing read and written by one pass, extents within 1 to maximumExtent, at most 16 slots and 4
 // features.
 Result<> validate(const Plan&);
 
 // Of transients in memoryUse() [bytes].
 inline constexpr size_t transientAlignment = 256;
 
+// Of one image or buffer, tightly stored in the format of the plan [bytes].
+size_t sizeOf(const Resource&);
+
 // Memory use on a GPU that stores images tightly in the formats of the plan; a device's own answer includes its
-// alignment and padding. Zero where the plan is not valid.
-inline MemoryUse memoryUse(const Plan& plan) {
-    std::vector<size_t> sizes;
-    MemoryUse use;
-    if (!validate(plan)) return use;
-    for (const Resource& r : plan.resources) {
-        sizes.push_back(bytesPerTexel(r.format) * size_t(r.extent.width) * size_t(r.extent.height));
-        if (r.kind == ResourceKind::buffer || r.kind == ResourceKind::frameConstants) use.buffers += r.size;
-    }
-    const TransientLayout layout = layoutTransients(plan, sizes, transientAlignment);
-    use.transient = layout.size;
-    use.transientUnshared = layout.sizeUnshared;
-    return use;
-}
+// alignment and padding. Fails where the plan is not valid.
+Result<MemoryUse> memoryUse(const Plan&);
+
+// A resource of an appended plan that is one of the plan it joins.
+struct PlanBinding {
+    std::string resource; // name in the appended plan: an input, an input buffer, or constants of a frame
+    std::string source;   // name in the plan that it joins, as it is there
+};
+
+struct AppendOptions {
+    std::string
+        prefix; // before names of what the appended plan has of its own: images, buffers, labels of passes
+    std::string hostPrefix; // before names of what the host hands in or out, and of frame constants
+    std::vector<PlanBinding> bindings;
+};
+
+// Lets one plan run behind another, in one frame and one block of memory: another technique, or the same for another
+// camera. What the host hands in under the same name and of the same kind becomes one; bindings make an image or buffer of
+// the first plan, such as its output, an input of the appended one. Inputs are prepared for each plan as ever and joined by
+// append(FrameInputs&, ...). Fails, and changes nothing, where names or labels clash, sizes or kinds differ, or a name is
+// unknown.
+Result<> append(Plan& plan, const Plan& appended, const AppendOptions& = {});
+
+// An output that the host does not want, as it is bound to an appended plan, becomes a transient. Fails where the plan has
+// no output of that name.
+Result<> keepInside(Plan&, std::string_view output);
 
 // One line a resource and a pass, for people and for comparison in tests.
 std::string toText(const Plan&);
 
 } // namespace rebound
 
+// In this order, which blank lines keep.
 #include "rebound/detail/plan.inl"
+
+#include "rebound/detail/append.inl"

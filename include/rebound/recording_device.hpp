@@ -18,8 +18,16 @@
 
 namespace rebound::recording {
 
+// Stands for a buffer of the host.
+struct Buffer {
+    std::string label; // appears in the log
+    size_t size = 0;   // [bytes]
+};
+
 // Stands for an image of the host.
 struct Image {
+    using Buffer = recording::Buffer;
+
     std::string label; // appears in the log
     Extent2D extent;
 };
@@ -28,7 +36,7 @@ struct BoundResource {
     int slot = 0;
     Access access = Access::read;
     std::string resource; // name in the plan
-    std::string image;    // label of the host's image; empty: the device's own memory, or constants
+    std::string image;    // label of the host's image or buffer; empty: the device's own memory, or constants
     size_t offset = 0;    // of transients, in the block that they share [bytes]
     size_t size = 0;      // of what the device holds, or of the constants [bytes]
 };
@@ -37,6 +45,7 @@ struct RecordedPass {
     std::string label, kernel;
     std::vector<int> features;
     Extent2D grid;
+    int items = 0;
     std::vector<BoundResource> bindings;
 };
 
@@ -49,10 +58,12 @@ struct RecordedFrame {
     std::string technique;
     std::vector<RecordedPass> passes;
     std::vector<RecordedConstants> constants;
+    bool historyIsValid =
+        false; // whether the frame before left some: not in the first frame, and not after reset()
 };
 
 struct Allocation {
-    std::string what; // "transients", or the name of a buffer
+    std::string what; // "transients", or the name of a buffer or of history
     size_t size = 0;  // [bytes]
 };
 
@@ -72,12 +83,14 @@ struct DeviceOptions {
 
 class Program {
 public:
-    // Logs one frame. Fails, and logs nothing, where an image or constant of the plan is missing, unknown or
+    // Logs one frame. Fails, and logs nothing, where an image, buffer or constant of the plan is missing, unknown or
     // of another size.
     Result<> record(const FrameInputs<Image>& inputs);
 
+    void reset() { state->frames.reset(); }
+
     // Nothing is timed: always empty.
-    std::vector<PassTiming> timings() const { return {}; }
+    Result<std::vector<PassTiming>> timings() const { return std::vector<PassTiming>{}; }
     const Plan& plan() const { return state->plan; }
     MemoryUse memoryUse() const { return state->use; }
 
@@ -89,6 +102,7 @@ private:
         MemoryUse use;
         std::vector<size_t> sizes; // by resource
         TransientLayout layout;
+        detail::FrameCount frames;
         std::shared_ptr<Log> log;
 
         State() = default;
@@ -102,15 +116,14 @@ private:
     };
     explicit Program(std::unique_ptr<State> s) : state(std::move(s)) {}
 
-    BoundResource bound(const PassBinding& binding, const Image* image) const {
-        const Resource& r = state->plan.resources[size_t(binding.resource)];
-        const bool held = r.kind == ResourceKind::transient || r.kind == ResourceKind::buffer;
-        return {binding.slot,
-                binding.access,
-                r.name,
-                image ? image->label : std::string(),
-                state->layout.offsets[size_t(binding.resource)],
-                held ? state->sizes[size_t(binding.resource)] : r.size};
+    BoundResource bound(const PassBinding& binding, const detail::ResolvedInputs<Image>& inputs) const {
+        const size_t i = size_t(binding.resource);
+        const std::string host = inputs.images[i]    ? inputs.images[i]->label
+                                 : inputs.buffers[i] ? inputs.buffers[i]->label
+                                                     : std::string();
+        const bool held = !isHostImage(state->plan.resources[i].kind);
+        return {binding.slot, binding.access,           state->plan.resources[i].name,
+                host,         state->layout.offsets[i], held ? state->sizes[i] : 0};
     }
 
     std::unique_ptr<State> state;
@@ -126,7 +139,7 @@ public:
     Result<Program> compile(const Plan& plan) const;
 
     // What compile() would allocate: images in the formats of the plan, tightly packed.
-    MemoryUse memoryUse(const Plan& plan) const { return rebound::memoryUse(plan); }
+    Result<MemoryUse> memoryUse(const Plan& plan) const { return rebound::memoryUse(plan); }
 
     const Log& log() const { return *sharedLog; }
 
@@ -146,7 +159,7 @@ private:
 inline Result<Program> Device::compile(const Plan& plan) const {
     if (auto valid = validate(plan); !valid) return valid.error();
     if (auto known = checkKernels(plan); !known) return known.error();
-    const MemoryUse use = memoryUse(plan);
+    const MemoryUse use = *memoryUse(plan);
     if (use.total() > options.memoryLimit - std::min(options.memoryLimit, sharedLog->liveBytes))
         return Error{ErrorCode::outOfMemory, "the plan needs " + std::to_string(use.total()) +
                                                  " bytes, where " + std::to_string(sharedLog->liveBytes) +
@@ -155,15 +168,13 @@ inline Result<Program> Device::compile(const Plan& plan) const {
     auto state = std::make_unique<Program::State>();
     state->plan = plan;
     state->use = use;
-    for (const Resource& r : plan.resources)
-        state->sizes.push_back(detail::isImage(r.kind) ? bytesPerTexel(r.format) * size_t(r.extent.width) *
-                                                             size_t(r.extent.height)
-                                                       : r.size);
+    for (const Resource& r : plan.resources) state->sizes.push_back(sizeOf(r));
     state->layout = layoutTransients(plan, state->sizes, transientAlignment);
     if (use.transient > 0) sharedLog->allocations.push_back({"transients", use.transient});
     for (const Resource& r : plan.resources)
-        if (r.kind == ResourceKind::buffer || r.kind == ResourceKind::frameConstants)
-            sharedLog->allocations.push_back({r.name, r.size});
+        if (!isHostImage(r.kind) && !isHostBuffer(r.kind) && !isTransient(r.kind))
+            sharedLog->allocations.push_back(
+                {r.name, r.kind == ResourceKind::history ? 2 * sizeOf(r) : sizeOf(r)});
     sharedLog->liveBytes += use.total();
     sharedLog->peakBytes = std::max(sharedLog->peakBytes, sharedLog->liveBytes);
     ++sharedLog->livePrograms;
@@ -175,22 +186,27 @@ inline Result<> Program::record(const FrameInputs<Image>& inputs) {
     const Plan& plan = state->plan;
     auto resolved = detail::resolveInputs(plan, inputs);
     if (!resolved) return resolved.error();
-    for (size_t i = 0; i < plan.resources.size(); ++i)
-        if (const Image* image = resolved->images[i]; image && image->extent != plan.resources[i].extent)
-            return invalidArgument("inputs.images: " + plan.resources[i].name + " is " +
-                                   detail::toText(image->extent) + "; " +
-                                   detail::toText(plan.resources[i].extent) + " was expected");
-    RecordedFrame frame{plan.technique, {}, {}};
+    for (size_t i = 0; i < plan.resources.size(); ++i) {
+        const Resource& r = plan.resources[i];
+        if (const Image* image = resolved->images[i]; image && image->extent != r.extent)
+            return invalidArgument("inputs.images: " + r.name + " is " + detail::toText(image->extent) +
+                                   "; " + detail::toText(r.extent) + " was expected");
+        if (const Buffer* buffer = resolved->buffers[i]; buffer && buffer->size < r.size)
+            return detail::smallBuffer(r, buffer->size);
+    }
+    RecordedFrame frame{plan.technique, {}, {}, !state->frames.atStart()};
     for (const Pass& pass : plan.passes) {
-        RecordedPass recorded{pass.label, pass.kernel, pass.features, pass.grid, {}};
-        for (const PassBinding& b : pass.bindings)
-            recorded.bindings.push_back(bound(b, resolved->images[size_t(b.resource)]));
+        RecordedPass recorded{pass.label, pass.kernel, pass.features, pass.grid, pass.items, {}};
+        for (const PassBinding& b : pass.bindings) recorded.bindings.push_back(bound(b, *resolved));
         frame.passes.push_back(std::move(recorded));
     }
     for (const NamedConstants& named : inputs.constants)
         frame.constants.push_back({std::string(named.name), named.data});
     state->log->frames.push_back(std::move(frame));
+    state->frames.advance();
     return {};
 }
+
+static_assert(ProgramDevice<Device, Program, Image>);
 
 } // namespace rebound::recording

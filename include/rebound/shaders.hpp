@@ -17,12 +17,27 @@ struct Shader {
     // Expanded GLSL without a #version line, for 4.30 and ES 3.10; the backend writes "#version ..." and a line
     // "#define REBOUND_FEATURE_n value" for each feature before it.
     std::string_view glsl;
-    KernelInfo info;           // sizes unknown
-    Format formats[slotCount]; // of images and outputs, as the shader declares them
+    KernelInfo info;
 };
 
-// The side of a shader's square workgroups [pixels].
+// The side of a shader's square workgroups [pixels], and how many items one of items has.
 inline constexpr int shaderGroupSize = 8;
+inline constexpr int shaderItemGroup = 64;
+
+// Workgroups of a pass, along x and y. Where a row of them does not hold all items, further rows do.
+struct GroupCounts {
+    uint32_t x = 1, y = 1;
+};
+inline GroupCounts groupCounts(const Pass& pass) {
+    if (pass.items > 0) {
+        constexpr uint32_t most = 65535; // along an axis, which every GPU has
+        const uint32_t groups = (uint32_t(pass.items) + shaderItemGroup - 1) / shaderItemGroup;
+        const uint32_t rows = (groups + most - 1) / most;
+        return {(groups + rows - 1) / rows, rows};
+    }
+    const auto groups = [](int side) { return uint32_t((side + shaderGroupSize - 1) / shaderGroupSize); };
+    return {groups(pass.grid.width), groups(pass.grid.height)};
+}
 
 // Every kernel of the techniques.
 std::span<const Shader* const> techniqueShaders();

@@ -23,7 +23,7 @@ public:
     Result<> record(const ScreenIndirectFrame<opengl::Image>&);
 
     // Of the passes of the latest frame that the GPU has finished.
-    const std::vector<PassTiming>& timings() const { return program->timings(); }
+    Result<std::vector<PassTiming>> timings() const { return program->timings(); }
     MemoryUse memoryUse() const { return program->memoryUse(); }
     const ScreenIndirectSettings& settings() const { return current; }
 

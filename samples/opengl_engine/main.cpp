@@ -24,7 +24,9 @@ Result<> renderToFile(const Options& o, const std::string& device, const lab::Sc
     if (auto fine = checkErrors("while frames were rendered"); !fine) return fine;
     glFinish(); // timings never wait
     const IndirectLight& indirect = (*renderer)->indirectLight();
-    return writePicture(o, scene.name, device, upsideDown(*composed), indirect.timings(),
+    const auto timings = indirect.timings();
+    return writePicture(o, scene.name, device, upsideDown(*composed),
+                        timings ? std::span<const PassTiming>(*timings) : std::span<const PassTiming>(),
                         indirect.memoryUse());
 }
 

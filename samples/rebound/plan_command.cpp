@@ -25,7 +25,7 @@ Result<> printPlan(const TechniqueOptions& options) {
     const auto use = (*backend)->memoryUse(plan);
     if (!use) return use.error();
     std::cout << rebound::toText(plan) << "memory on the CPU " << toText(*use) << "\nmemory on a GPU "
-              << toText(memoryUse(plan)) << '\n';
+              << toText(*memoryUse(plan)) << '\n';
     return {};
 }
 

@@ -26,7 +26,7 @@ public:
     Result<> record(VkCommandBuffer, int frame, const ScreenIndirectFrame<vulkan::Image>&);
 
     // Of the passes last recorded for that frame, once the GPU is done with it.
-    Result<std::vector<PassTiming>> timings(int frame) const { return program->timings(frame); }
+    Result<std::vector<PassTiming>> timings() const { return program->timings(); }
     MemoryUse memoryUse() const { return program->memoryUse(); }
     const ScreenIndirectSettings& settings() const { return current; }
 

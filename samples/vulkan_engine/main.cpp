@@ -31,7 +31,7 @@ Result<> renderToFile(const Options& o, const host::VulkanContext& context, cons
     auto composed = (*renderer)->read((*renderer)->targets().composed, 3);
     if (!composed) return composed.error();
     const IndirectLight& indirect = (*renderer)->indirectLight();
-    const auto timings = indirect.timings((frames - 1) % framesInFlight);
+    const auto timings = indirect.timings();
     return writePicture(o, scene.name, context.deviceName(), *composed,
                         timings ? std::span<const PassTiming>(*timings) : std::span<const PassTiming>(),
                         indirect.memoryUse());

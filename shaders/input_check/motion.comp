@@ -5,6 +5,7 @@
 #include "rebound/math/packing.h"
 #include "rebound/math/view_position.h"
 #include "rebound/math/gbuffer.h"
+#include "rebound/math/reprojection.h"
 #include "rebound/math/input_statistics.h"
 
 // The signs of a reading, in the order of all readings: as stated, turned round, y, x.
@@ -14,12 +15,6 @@ RB_FUNCTION Vec4 agreements(Vec2 motion, float scaleX, float scaleY, Vec2 expect
     Real y = Real(scaleY);
     return Vec4(motionAgrees(motion, x, y, expected, judged), motionAgrees(motion, -x, -y, expected, judged),
                 motionAgrees(motion, x, -y, expected, judged), motionAgrees(motion, -x, y, expected, judged));
-}
-
-// A row's product with (p, 1).
-RB_FUNCTION Real product(vec4 row, Vec3 p)
-{
-    return p.x * row.x + p.y * row.y + p.z * row.z + row.w;
 }
 
 // Motion vectors against what depth and both cameras give for a scene that stands still. Of surfaces: .x no number,
@@ -51,13 +46,12 @@ RB_MAIN(pixel, k.grid)
             Mask number = surface && isFinite(texel.x) && isFinite(texel.y);
             Vec2 m = select(number, Vec2(texel.x, texel.y), Vec2(0.0f));
             Vec3 p = viewPosition(viewRay(camera, at), select(surface, linearDepth(camera, d), Real(1.0f)), projection);
-            Real x = product(cameras.previousX, p);
-            Real y = product(cameras.previousY, p);
-            Real w = product(cameras.previousW, p);
+            Vec3 before = reprojected(cameras.previous, p);
+            Real w = before.z;
             Mask visible = number && w > p.z * 0.01f;
             if (projection == orthographicProjection) visible = number;
             w = select(visible, w, Real(1.0f));
-            Vec2 expected = select(visible, Vec2(x / w - at.x, y / w - at.y), Vec2(0.0f));
+            Vec2 expected = select(visible, Vec2(before.x / w - at.x, before.y / w - at.y), Vec2(0.0f));
             Real e2 = dot(expected, expected);
             float reach = max(k.size.x, k.size.y);
             visible = visible && e2 < reach * reach;

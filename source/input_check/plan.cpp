@@ -156,7 +156,7 @@ private:
 
 template <class T>
 NamedConstants namedConstants(std::string_view name, const T& constants) {
-    NamedConstants named{name, std::vector<std::byte>(sizeof(T))};
+    NamedConstants named{std::string(name), std::vector<std::byte>(sizeof(T))};
     std::memcpy(named.data.data(), &constants, sizeof(T));
     return named;
 }

@@ -114,15 +114,6 @@ depthReadings(const Camera& camera, const GBufferConventions& c, const CameraCon
     return readings;
 }
 
-// To pixels, along the image's rows, from where a surface is to where it was.
-inline glm::vec2 motionScale(const InputCheckSettings& s, MotionUnit unit) {
-    const glm::vec2 size(s.resolution.width, s.resolution.height);
-    const float sign = s.motionConventions.direction == MotionDirection::toPrevious ? 1.0f : -1.0f;
-    if (unit == MotionUnit::pixels) return glm::vec2(sign);
-    if (unit == MotionUnit::textureCoordinates) return sign * size;
-    return sign * 0.5f * size * glm::vec2(1.0f, s.conventions.firstRow == FirstRow::top ? -1.0f : 1.0f);
-}
-
 // The stated unit, then the others.
 inline std::array<MotionUnit, 3> motionUnits(MotionUnit stated) {
     std::array<MotionUnit, 3> units{MotionUnit::pixels, MotionUnit::textureCoordinates,
@@ -133,19 +124,12 @@ inline std::array<MotionUnit, 3> motionUnits(MotionUnit stated) {
 
 inline MotionConstants motionConstants(const InputCheckSettings& s, const Camera& camera,
                                        const Camera& previous) {
-    glm::dmat4 toEngine(1.0);
-    toEngine[2][2] = forwardSign(s.conventions);
-    const glm::dmat4 toClip = glm::dmat4(previous.projection) * glm::dmat4(previous.view) *
-                              glm::inverse(glm::dmat4(camera.view)) * toEngine;
-    const glm::dmat4 rows = glm::transpose(toClip);
-    const double width = s.resolution.width, height = s.resolution.height;
-    const double down = s.conventions.firstRow == FirstRow::top ? -1.0 : 1.0;
+    const auto scale = [&](MotionUnit unit) {
+        return motionToPixels({unit, s.motionConventions.direction}, s.conventions, s.resolution);
+    };
     const auto units = motionUnits(s.motionConventions.unit);
-    const glm::vec2 stated = motionScale(s, units[0]), second = motionScale(s, units[1]),
-                    third = motionScale(s, units[2]);
-    return {glm::vec4(0.5 * width * (rows[0] + rows[3])),
-            glm::vec4(0.5 * height * (down * rows[1] + rows[3])), glm::vec4(rows[3]),
-            glm::vec4(stated, second), glm::vec4(third, 0.0f, 0.0f)};
+    return {reprojection(camera, previous, s.conventions, s.resolution),
+            glm::vec4(scale(units[0]), scale(units[1])), glm::vec4(scale(units[2]), 0.0f, 0.0f)};
 }
 
 // What may be wrong with normals beside their encoding and their space.

@@ -26,8 +26,10 @@ TEST_CASE("a plan's hash knows its passes, and every bit of what it holds") {
     CHECK(planHash(otherLabel) != planHash(usualPlan()));
     Plan otherData = usualPlan();
     for (Resource& resource : otherData.resources)
-        if (!resource.data.empty()) {
-            resource.data.back() ^= std::byte{1};
+        if (resource.data) {
+            std::vector<std::byte> bytes = *resource.data;
+            bytes.back() ^= std::byte{1};
+            resource.data = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
             break;
         }
     CHECK(toText(otherData) == toText(usualPlan()));

@@ -62,6 +62,7 @@ public:
     explicit FaultyPlan(std::unique_ptr<runner::PreparedPlan> p) : plan(std::move(p)) {}
     Result<> setInputs(const runner::PlanInputs& inputs) override { return plan->setInputs(inputs); }
     Result<double> run() override { return plan->run(); }
+    void reset() override { plan->reset(); }
     const std::vector<PassTiming>& timings() const override { return plan->timings(); }
     MemoryUse memoryUse() const override { return plan->memoryUse(); }
     Result<lab::Image> read(const std::string& output) override { return plan->read(output); }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a frame consists of: barriers, dispatches, groups. A driver that runs one command after the other
 // needs no barrier, so that only a look at the commands tells whether they are there.
+#include "sums_technique.hpp"
 #include "test_plans.hpp"
+
+#include "lab/host/opengl_buffer.hpp"
 
 namespace rebound::test {
 namespace {
@@ -35,6 +38,35 @@ TEST_CASE("OpenGL: a barrier stands before a pass that reads what an earlier one
     });
 }
 
+TEST_CASE("OpenGL: buffers that kernels write have barriers of their own, and items groups of 64") {
+    inEachContext([](host::OpenGLContext&) {
+        constexpr Extent2D extent{37, 11};
+        const Plan plan = planSums(extent);
+        opengl::Program program = compile(createDevice(optionsWithFakes()), plan);
+        const HostTextures textures(plan, {{"picture", Picture(extent, 1)}}, Format::rgba32f);
+        const host::OpenGLBuffer weights(weightCount * 4), report(37 * 11 * 4);
+        FrameInputs<opengl::Image> inputs = textures.inputs();
+        inputs.buffers = {{"weights", {weights.name(), 0, weightCount * 4, {}}},
+                          {"report", {report.name(), 0, 37 * 11 * 4, {}}}};
+        constexpr GLbitfield storage = GL_SHADER_STORAGE_BARRIER_BIT;
+        const Command pixels{0, {5, 2, 1}}, items{0, {7, 1, 1}};
+        // Twice a buffer is read that the pass before has written, and twice an image; the first barrier waits for the
+        // frame before.
+        const std::vector<Command> expected = {{store | storage, {}},
+                                               pixels,
+                                               {storage, {}},
+                                               items,
+                                               {storage, {}},
+                                               items,
+                                               {fetch, {}},
+                                               pixels,
+                                               {fetch, {}},
+                                               pixels,
+                                               {host | storage | GL_BUFFER_UPDATE_BARRIER_BIT, {}}};
+        for (int run = 0; run < 2; ++run) CHECK(commandsOf(program, inputs) == expected);
+    });
+}
+
 TEST_CASE("OpenGL: a barrier stands before a pass that overwrites a texture in use, and nowhere else") {
     inEachContext([](host::OpenGLContext&) {
         const Plan plan = sharingPlan();
@@ -60,7 +92,7 @@ TEST_CASE("OpenGL: objects have labels, passes are groups") {
     inEachContext([](host::OpenGLContext&) {
         opengl::Program program = compile(createDevice(), copyPlan({20, 5}));
         char label[100] = {};
-        glGetObjectLabel(GL_TEXTURE, *program.transientTexture("source"), sizeof label, nullptr, label);
+        glGetObjectLabel(GL_TEXTURE, *program.ownTexture("source"), sizeof label, nullptr, label);
         CHECK(std::string(label) == "test: source");
 
         static std::vector<std::string> groups;

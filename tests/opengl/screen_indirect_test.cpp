@@ -135,7 +135,7 @@ Pictures transientsOf(const opengl::Device& device, const Plan& plan, const Fram
     opengl::Program program = compile(device, plan);
     Pictures pictures;
     watchPasses(program, pictures, [&program](const Resource& r) {
-        const auto texture = program.transientTexture(r.name);
+        const auto texture = program.ownTexture(r.name);
         REQUIRE(texture);
         return readBack(*texture, r.extent, r.channels);
     });
@@ -151,7 +151,7 @@ Pictures transientsOf(const cpu::Device& device, const Plan& plan, const Frame& 
     Pictures pictures, images = picturesOf(f);
     watchPasses(*program, pictures, [&program](const Resource& r) {
         Picture picture(r.extent, r.channels);
-        picture.values = *program->readTransient(r.name);
+        picture.values = floatsOf(*program->read(r.name));
         return picture;
     });
     images["indirect"] = images["composed"] = Picture(f.settings.resolution, 3);

@@ -25,7 +25,7 @@ TEST_CASE("resizes between frames: no message, and the picture of a renderer tha
         CHECK(require(renderer->read(renderer->targets().composed, 3)).data == composed.data);
         CHECK(mean(composed) > 0.0);
         glFinish();
-        CHECK(renderer->indirectLight().timings().size() > 5);
+        CHECK(renderer->indirectLight().timings()->size() > 5);
     }
     checkSilence(context);
 }

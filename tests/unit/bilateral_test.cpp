@@ -70,7 +70,7 @@ Picture filteredBy(cpu::Isa isa, const std::string& kernel, const std::vector<in
     const auto recorded = program->record(frame);
     INFO((recorded ? std::string() : recorded.error().message));
     REQUIRE(recorded);
-    if (!toHost) result.values = *program->readTransient("result");
+    if (!toHost) result.values = floatsOf(*program->read("result"));
     return result;
 }
 

@@ -181,4 +181,47 @@ TEST_CASE("planar depth does not ask for a depth range, a direction or a far pla
     }
 }
 
+TEST_CASE("reprojection: where another camera's matrices put a point, pixel by pixel") {
+    const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), 0.3f, glm::vec3(0.2f, 1.0f, 0.1f));
+    const Camera from{glm::translate(turn, glm::vec3(1.0f, -0.5f, -2.0f)),
+                      glm::perspectiveRH_ZO(1.0f, 1.5f, 0.1f, 100.0f)},
+        to{glm::translate(glm::mat4(1.0f), glm::vec3(0.8f, -0.4f, -2.2f)), from.projection};
+    const Extent2D extent{300, 200};
+    for (FirstRow firstRow : {FirstRow::top, FirstRow::bottom})
+        for (const glm::vec3 point : {glm::vec3(0, 0, -3), glm::vec3(1, 0.5f, -6), glm::vec3(-2, 1, -9)}) {
+            GBufferConventions conventions;
+            conventions.firstRow = firstRow;
+            const ReprojectionConstants k = reprojection(from, to, conventions, extent);
+            glm::vec4 view = from.view * glm::vec4(point, 1.0f);
+            view.z = -view.z; // a distance along the axis
+            const float w = glm::dot(k.w, view);
+            const glm::vec4 clip = to.projection * to.view * glm::vec4(point, 1.0f);
+            const float x = (clip.x / clip.w * 0.5f + 0.5f) * 300.0f,
+                        up = (clip.y / clip.w * 0.5f + 0.5f) * 200.0f;
+            CHECK(w == doctest::Approx(clip.w));
+            CHECK(glm::dot(k.x, view) / w == doctest::Approx(x));
+            CHECK(glm::dot(k.y, view) / w == doctest::Approx(firstRow == FirstRow::top ? 200.0f - up : up));
+        }
+}
+
+TEST_CASE("motion vectors of every convention become the same way in pixels") {
+    const Extent2D extent{300, 200};
+    GBufferConventions top, bottom;
+    bottom.firstRow = FirstRow::bottom;
+    // To where the surface was: 30 columns right, 20 rows on.
+    const glm::vec2 expected(30.0f, 20.0f);
+    const auto check = [&](MotionUnit unit, glm::vec2 stored, const GBufferConventions& c) {
+        for (auto [direction, sign] :
+             {std::pair{MotionDirection::toPrevious, 1.0f}, {MotionDirection::fromPrevious, -1.0f}}) {
+            const glm::vec2 way = stored * sign * motionToPixels({unit, direction}, c, extent);
+            CHECK(way.x == doctest::Approx(expected.x));
+            CHECK(way.y == doctest::Approx(expected.y));
+        }
+    };
+    check(MotionUnit::pixels, {30.0f, 20.0f}, top);
+    check(MotionUnit::textureCoordinates, {0.1f, 0.1f}, top);
+    check(MotionUnit::normalizedDevice, {0.2f, -0.2f}, top);
+    check(MotionUnit::normalizedDevice, {0.2f, 0.2f}, bottom);
+}
+
 } // namespace rebound::test

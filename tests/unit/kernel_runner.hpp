@@ -79,6 +79,12 @@ std::vector<std::byte> bytesOf(const T& value) {
     return {bytes, bytes + sizeof(T)};
 }
 
+inline std::vector<float> floatsOf(const std::vector<std::byte>& bytes) {
+    std::vector<float> floats(bytes.size() / sizeof(float));
+    std::memcpy(floats.data(), bytes.data(), floats.size() * sizeof(float));
+    return floats;
+}
+
 // A kernel that reads images of the host and writes one.
 struct KernelCall {
     std::string kernel;

@@ -33,7 +33,7 @@ void checkRefused(const std::string& part, const std::function<void(Plan&)>& spo
     REQUIRE_FALSE(valid);
     CHECK(valid.error().code == ErrorCode::invalidArgument);
     CHECK(valid.error().message.find(part) != std::string::npos);
-    CHECK(memoryUse(plan).total() == 0);
+    CHECK_FALSE(memoryUse(plan));
 }
 
 // A plan whose passes write and read transients at random.
@@ -130,12 +130,93 @@ TEST_CASE("a plan's passes: what is refused") {
     });
 }
 
+TEST_CASE("history, buffers and items: what is refused") {
+    checkRefused("reads what the frame before has left in a, which is transient; history was expected",
+                 [](Plan& p) { p.passes[1].bindings[0].access = Access::readPrevious; });
+    const auto addHistory = [](Plan& p) {
+        return p.add({"mean", ResourceKind::history, Format::rgba16f, 3, {8, 4}, {}, 0});
+    };
+    checkRefused("reads mean before a pass has written it", [&](Plan& p) {
+        p.passes[1].bindings.push_back({5, addHistory(p)});
+    });
+    checkRefused("plan.passes read mean, which is history that no pass writes", [&](Plan& p) {
+        p.passes[1].bindings.push_back({5, addHistory(p), Access::readPrevious});
+    });
+    checkRefused("plan.passes read sums, which is persistent buffer that no pass writes", [](Plan& p) {
+        p.passes[1].bindings.push_back(
+            {5, p.add({"sums", ResourceKind::persistentBuffer, Format::r32f, 1, {}, {}, 16})});
+    });
+    checkRefused("reads list before", [](Plan& p) {
+        p.passes[1].bindings.push_back(
+            {5, p.add({"list", ResourceKind::transientBuffer, Format::r32f, 1, {}, {}, 16})});
+    });
+    checkRefused("writes links, which is input buffer", [](Plan& p) {
+        p.passes[1].bindings.push_back(
+            {5, p.add({"links", ResourceKind::inputBuffer, Format::r32f, 1, {}, {}, 16}), Access::write});
+    });
+    for (ResourceKind kind : {ResourceKind::inputBuffer, ResourceKind::outputBuffer,
+                              ResourceKind::transientBuffer, ResourceKind::persistentBuffer}) {
+        checkRefused("links is empty", [&](Plan& p) { p.add({"links", kind, Format::r32f, 1, {}, {}, 0}); });
+        checkRefused("at most 4294967296 were expected", [&](Plan& p) {
+            p.add({"links", kind, Format::r32f, 1, {}, {}, maximumBufferSize + 1});
+        });
+    }
+    checkRefused("frame state has 8 bytes; 16 were expected", [](Plan& p) {
+        Resource r = frameStateResource();
+        r.size = 8;
+        p.add(r);
+    });
+    checkRefused("first has a grid of 8x4 pixels and 7 items; one of both was expected",
+                 [](Plan& p) { p.passes[0].items = 7; });
+    for (int items : {-1, maximumItems + 1})
+        checkRefused("items; 1 to 1073741824 was expected", [&](Plan& p) {
+            p.passes[0].grid = {};
+            p.passes[0].items = items;
+        });
+}
+
+TEST_CASE("history is read as it was and written as it will be by one pass") {
+    Plan plan{"history", {}, {}};
+    const auto mean = plan.add({"mean", ResourceKind::history, Format::rgba16f, 3, {8, 4}, {}, 0});
+    plan.passes = {{"mix", "k", {}, {{0, mean, Access::readPrevious}, {1, mean, Access::write}}, {8, 4}}};
+    CHECK(validate(plan));
+    plan.passes[0].bindings.push_back({2, mean});
+    CHECK_FALSE(validate(plan));
+}
+
+TEST_CASE("memory of history is two images, and of buffers their size; transient buffers share with images") {
+    Plan plan{"kinds", {}, {}};
+    const auto mean = plan.add({"mean", ResourceKind::history, Format::rgba16f, 3, {64, 16}, {}, 0});
+    const auto sums = plan.add({"sums", ResourceKind::persistentBuffer, Format::r32f, 1, {}, {}, 1000});
+    const auto image = plan.add({"image", ResourceKind::transient, Format::r32ui, 1, {64, 16}, {}, 0});
+    const auto list = plan.add({"list", ResourceKind::transientBuffer, Format::r32ui, 1, {}, {}, 4096});
+    plan.add({"links", ResourceKind::inputBuffer, Format::r32f, 1, {}, {}, size_t(1) << 30});
+    plan.add({"report", ResourceKind::outputBuffer, Format::r32f, 1, {}, {}, size_t(1) << 30});
+    plan.add(frameStateResource());
+    plan.passes = {{"1", "k", {}, {{0, image, Access::write}, {1, mean, Access::write}}, {64, 16}},
+                   {"2", "k", {}, {{0, sums, Access::write}}, {}, 250},
+                   {"3", "k", {}, {{0, list, Access::write}}, {}, 1024}};
+    const auto use = memoryUse(plan);
+    REQUIRE(use);
+    CHECK(use->persistent == 2 * 64 * 16 * 8 + 1000);
+    CHECK(use->transient == 4096); // one where the other was
+    CHECK(use->transientUnshared == 2 * 4096);
+    CHECK(use->buffers == 16);
+    CHECK(use->total() == use->persistent + use->transient + use->buffers);
+}
+
+TEST_CASE("copies of a plan share their data") {
+    Plan plan = smallPlan();
+    const Plan copy = plan;
+    CHECK(copy.resources[3].data == plan.resources[3].data);
+}
+
 TEST_CASE("a buffer holds its elements' bytes") {
     const Resource r = bufferResource("b", std::vector<int>{7, -1});
     CHECK(r.kind == ResourceKind::buffer);
-    REQUIRE(r.data.size() == 8);
+    REQUIRE(r.data->size() == 8);
     int second = 0;
-    std::memcpy(&second, r.data.data() + 4, 4);
+    std::memcpy(&second, r.data->data() + 4, 4);
     CHECK(second == -1);
     CHECK(r.size == 8);
     CHECK(bufferResource("e", std::vector<int>{}).size == 0);
@@ -152,7 +233,7 @@ TEST_CASE("lifetimes run from a resource's first pass to its last") {
     CHECK(lives[0].overlaps(lives[1]));
     CHECK_FALSE(lives[0].overlaps(lives[2]));
     // Nothing is set aside for what no pass uses: 8 x 4 texels of 8 bytes.
-    CHECK(memoryUse(plan).transient == 256);
+    CHECK(memoryUse(plan)->transient == 256);
 }
 
 TEST_CASE("memory of a plan: transients shared where they can be") {
@@ -164,10 +245,10 @@ TEST_CASE("memory of a plan: transients shared where they can be") {
                    {"2", "k", {}, {{0, 0}, {1, 1, Access::write}}, {64, 64}},
                    {"3", "k", {}, {{0, 1}, {1, 2, Access::write}}, {64, 64}}};
     plan.add(bufferResource("table", std::vector<float>(10)));
-    CHECK(memoryUse(plan).transientUnshared == 3 * 64 * 64 * 4);
-    CHECK(memoryUse(plan).transient == 2 * 64 * 64 * 4);
-    CHECK(memoryUse(plan).buffers == 40);
-    CHECK(memoryUse(plan).total() == 2 * 64 * 64 * 4 + 40);
+    CHECK(memoryUse(plan)->transientUnshared == 3 * 64 * 64 * 4);
+    CHECK(memoryUse(plan)->transient == 2 * 64 * 64 * 4);
+    CHECK(memoryUse(plan)->buffers == 40);
+    CHECK(memoryUse(plan)->total() == 2 * 64 * 64 * 4 + 40);
 }
 
 TEST_CASE("no two transients that are alive together overlap, in plans at random") {
@@ -208,7 +289,7 @@ TEST_CASE("the largest plan's memory is told without being allocated") {
         pass.bindings.push_back({i, i, Access::write});
     }
     plan.passes.push_back(pass);
-    CHECK(memoryUse(plan).transient == size_t(16) * 16384 * 16384 * 16);
+    CHECK(memoryUse(plan)->transient == size_t(16) * 16384 * 16384 * 16);
 }
 
 TEST_CASE("a plan prints as text, a line a resource and a pass") {
@@ -220,6 +301,17 @@ TEST_CASE("a plan prints as text, a line a resource and a pass") {
                                  "resource camera: frame constants 96 bytes\n"
                                  "pass first: one <2,0> for 8x4, reads input, writes a, reads camera\n"
                                  "pass second: two for 8x4, reads a, writes output, reads numbers\n");
+    Plan plan{"more", {}, {}};
+    const auto mean = plan.add({"mean", ResourceKind::history, Format::r32ui, 1, {8, 4}, {}, 0});
+    const auto sums = plan.add({"sums", ResourceKind::persistentBuffer, Format::r32f, 1, {}, {}, 64});
+    plan.passes.push_back(
+        {"mix", "one", {}, {{0, mean, Access::readPrevious}, {1, mean, Access::write}}, {8, 4}});
+    plan.passes.push_back({"sum", "two", {}, {{0, sums, Access::write}}, {}, 16});
+    CHECK(toText(plan) == "plan more\n"
+                          "resource mean: history 8x4 r32ui, 1 channel\n"
+                          "resource sums: persistent buffer 64 bytes\n"
+                          "pass mix: one for 8x4, reads previous mean, writes mean\n"
+                          "pass sum: two for 16 items, writes sums\n");
 }
 
 } // namespace rebound

@@ -169,7 +169,7 @@ TEST_CASE("recording: memory is known before it is allocated, and given back") {
     const ScreenIndirectSettings s = settingsFor({1280, 720});
     auto plan = planScreenIndirect(s);
     REQUIRE(plan);
-    const MemoryUse before = device.memoryUse(*plan);
+    const MemoryUse before = *device.memoryUse(*plan);
     CHECK(before.transient > 0);
     CHECK(before.transient < before.transientUnshared);
     {
@@ -274,7 +274,7 @@ TEST_CASE("recording: what a frame lacks, repeats or does not need is named") {
 TEST_CASE("recording: a device short of memory, or of a kernel, refuses and stays as it was") {
     auto plan = planScreenIndirect(settingsFor({640, 360}));
     REQUIRE(plan);
-    const size_t needed = memoryUse(*plan).total();
+    const size_t needed = memoryUse(*plan)->total();
     Device device({needed + needed / 2, {}});
     {
         auto first = device.compile(*plan);

@@ -64,11 +64,16 @@ TEST_CASE("a shader declares the slots and features that its kernel has, and the
                     CAPTURE(shader->name);
                     CHECK(std::ranges::equal(shader->info.kinds, kernel->info.kinds));
                     CHECK(std::ranges::equal(shader->info.featureCounts, kernel->info.featureCounts));
+                    CHECK(std::ranges::equal(shader->info.sizes, kernel->info.sizes));
+                    CHECK(shader->info.forItems == kernel->info.forItems);
+                    CHECK((shader->glsl.find("local_size_x = 64") != std::string_view::npos) ==
+                          kernel->info.forItems);
                     for (int slot = 0; slot < slotCount; ++slot)
                         if (shader->info.kinds[slot] == BindingKind::image ||
                             shader->info.kinds[slot] == BindingKind::output)
                             CHECK(shader->glsl.find("binding = " + std::to_string(slot) + ", " +
-                                                    name(shader->formats[slot])) != std::string_view::npos);
+                                                    name(shader->info.formats[slot])) !=
+                                  std::string_view::npos);
                 }
     };
     check(techniqueShaders(), cpu::techniqueKernels(cpu::Isa::scalar));

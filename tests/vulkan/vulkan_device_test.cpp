@@ -202,10 +202,10 @@ TEST_CASE("transients are there to be copied where that was asked for") {
     auto inspectable = device.compile(copyPlan(extent), {2, nullptr, true});
     REQUIRE(plain);
     REQUIRE(inspectable);
-    checkRefused(plain->transientImage("source"), ErrorCode::invalidArgument, "inspectable");
+    checkRefused(plain->ownImage("source"), ErrorCode::invalidArgument, "inspectable");
     for (const char* name : {"host", "result", "constants", "nothing", ""})
-        checkRefused(inspectable->transientImage(name), ErrorCode::notFound, "no transient in use named");
-    CHECK(inspectable->transientImage("source"));
+        checkRefused(inspectable->ownImage(name), ErrorCode::notFound, "in use named");
+    CHECK(inspectable->ownImage("source"));
     std::vector<int> passes;
     inspectable->onPass([&](VkCommandBuffer commands, int pass) {
         passes.push_back(pass);

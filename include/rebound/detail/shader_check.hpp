@@ -25,8 +25,8 @@ inline Result<> checkShaderUse(const Plan& plan, const Pass& pass, const Shader&
     if (auto valid = checkKernelUse(plan, pass, shader.name, shader.info); !valid) return valid.error();
     for (const PassBinding& b : pass.bindings) {
         const Resource& r = plan.resources[size_t(b.resource)];
-        const Format declared = shader.formats[b.slot];
-        if (b.access == Access::write && r.format != declared)
+        const Format declared = shader.info.formats[b.slot];
+        if (b.access == Access::write && isImage(r.kind) && r.format != declared)
             return invalidArgument("plan.passes: " + pass.label + " writes " + r.name + ", which is " +
                                    name(r.format) + ", through slot " + std::to_string(b.slot) + " of " +
                                    std::string(shader.name) + ", which is " + name(declared));

@@ -21,20 +21,22 @@ struct Binding {
     bool holdsHalves = false;  // of the device's own: floats that stand for halves, and end where those do
     int width = 0, height = 0; // [texels]
     int channels = 0;
+    size_t size = 0;             // of buffers and constants [bytes]
     void* data = nullptr;        // texel 0, 0 of channel 0; a buffer's or a constant block's first byte
     ptrdiff_t pixelStride = 0;   // [bytes]
     ptrdiff_t rowStride = 0;     // [bytes]
     ptrdiff_t channelStride = 0; // [bytes]
 };
 
-// Runs a kernel for the pixels of rows yBegin to yEnd - 1 of a grid that is width pixels wide.
-using RunRows = void (*)(const Binding* slots, int width, int yBegin, int yEnd);
+// Runs a kernel for the pixels of rows begin to end - 1 of a grid that is so many pixels wide; of a kernel for items, for
+// items begin to end - 1 of so many. begin is a multiple of 64 then.
+using RunRange = void (*)(const Binding* slots, int widthOrItems, int begin, int end);
 
 // One kernel, compiled for one instruction set.
 struct KernelEntry {
     const char* name;
     KernelInfo info;
-    const RunRows* variants; // indexed by feature 0 + count 0 * (feature 1 + count 1 * ...)
+    const RunRange* variants; // indexed as KernelInfo::combinations; null where the combination is not listed
 };
 
 } // namespace rebound::cpu

@@ -238,3 +238,36 @@ inline void store(const HostImage& t, Pixel p, const Vec4& v) {
     t.storeLanesOf(2, p, v.z);
     t.storeLanesOf(3, p, v.w);
 }
+
+// Images of unsigned integers lie in memory as floats of the same bits.
+template <class Image>
+struct UIntImage {
+    Image image;
+
+    UIntImage() = default;
+    explicit UIntImage(const Binding& b) : image(b) {}
+};
+using UIntTexture = UIntImage<Texture>;
+using UIntHostImage = UIntImage<HostImage>;
+
+inline UVec4 bitsOfLanes(const Vec4& v) {
+    return UVec4(floatBitsToUint(v.x), floatBitsToUint(v.y), floatBitsToUint(v.z), floatBitsToUint(v.w));
+}
+
+template <class Image>
+UVec4 fetch(const UIntImage<Image>& t, Pixel p) {
+    return bitsOfLanes(fetch(t.image, p));
+}
+template <class Image>
+UVec4 fetchOffset(const UIntImage<Image>& t, Pixel p, ivec2 o) {
+    return bitsOfLanes(fetchOffset(t.image, p, o));
+}
+inline UVec4 fetchAt(const UIntTexture& t, IVec2 at) { return bitsOfLanes(fetchAt(t.image, at)); }
+template <class Image>
+void store(const UIntImage<Image>& t, Pixel p, const UVec4& v) {
+    store(t.image, p,
+          Vec4(uintBitsToFloat(v.x), uintBitsToFloat(v.y), uintBitsToFloat(v.z), uintBitsToFloat(v.w)));
+}
+
+template <Format format, class OfFloats, class OfUInts>
+using ImageOf = std::conditional_t<format == Format::r32ui || format == Format::rgba32ui, OfUInts, OfFloats>;

@@ -19,6 +19,7 @@ inline uint16_t floatToHalf(float f) {
 #include "rebound/kernel/lanes_x86.h"
 #include "rebound/kernel/vectors_cpu.h"
 #include "rebound/kernel/images_cpu.h"
+#include "rebound/kernel/buffers_cpu.h"
 
 #define RB_FUNCTION inline
 // Before a loop of a few rounds over an array: the array then lives in registers.
@@ -41,18 +42,26 @@ constexpr int featureValue() {
 }
 
 // A kernel is a class template over its features' values; ThisKernel names the one that the file defines.
-#define RB_KERNEL(name)                                                                                      \
+#define RB_KERNEL_FOR(name, items)                                                                           \
     template <int... featureValues>                                                                          \
     struct name;                                                                                             \
     template <int... featureValues>                                                                          \
     using ThisKernel = name<featureValues...>;                                                               \
     template <int... featureValues>                                                                          \
-    struct name {
+    struct name {                                                                                            \
+        static constexpr bool forItems = items;
+#define RB_KERNEL(name) RB_KERNEL_FOR(name, false)
+#define RB_ITEM_KERNEL(name) RB_KERNEL_FOR(name, true)
 #define RB_FEATURE(id, name, count)                                                                          \
     static constexpr int name = featureValue<id, featureValues...>();                                        \
     static constexpr int featureCount(Slot<id>) { return count; }
-#define RB_BIND(slot, bindingKind, name)                                                                     \
+#define RB_COMBINATIONS(condition)                                                                           \
+    static constexpr bool isListed() { return condition; }
+#define RB_SLOT(slot, bindingKind, name)                                                                     \
     static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::bindingKind; }                     \
+    static constexpr const char* nameOf(Slot<slot>) { return #name; }
+#define RB_BIND(slot, bindingKind, name)                                                                     \
+    RB_SLOT(slot, bindingKind, name)                                                                         \
     void bind(Slot<slot>, const Binding& binding) { name = decltype(name)(binding); }
 #define RB_TEXTURE(slot, name)                                                                               \
     Texture name;                                                                                            \
@@ -64,23 +73,43 @@ constexpr int featureValue() {
 #define RB_INPUT(slot, name)                                                                                 \
     HostImage name;                                                                                          \
     RB_BIND(slot, input, name)
+#define RB_UINT_TEXTURE(slot, name)                                                                          \
+    UIntTexture name;                                                                                        \
+    static constexpr bool fillsGrid(Slot<slot>) { return true; }                                             \
+    RB_BIND(slot, uintTexture, name)
+#define RB_UINT_INPUT(slot, name)                                                                            \
+    UIntHostImage name;                                                                                      \
+    RB_BIND(slot, uintInput, name)
 #define RB_IMAGE(slot, format, name)                                                                         \
-    Texture name;                                                                                            \
+    ImageOf<Format::format, Texture, UIntTexture> name;                                                      \
+    static constexpr Format formatOf(Slot<slot>) { return Format::format; }                                  \
     RB_BIND(slot, image, name)
 #define RB_OUTPUT(slot, format, name)                                                                        \
-    HostImage name;                                                                                          \
+    ImageOf<Format::format, HostImage, UIntHostImage> name;                                                  \
+    static constexpr Format formatOf(Slot<slot>) { return Format::format; }                                  \
     RB_BIND(slot, output, name)
 #define RB_BUFFER(slot, Type, name)                                                                          \
     const Type* name;                                                                                        \
-    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::buffer; }                          \
+    RB_SLOT(slot, buffer, name)                                                                              \
     static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
     void bind(Slot<slot>, const Binding& binding) { name = static_cast<const Type*>(binding.data); }
+#define RB_VALUES(slot, Type, name)                                                                          \
+    NumberBuffer<const Type> name;                                                                           \
+    static constexpr Format formatOf(Slot<slot>) { return numberFormat<Type>; }                              \
+    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
+    RB_BIND(slot, values, name)
+#define RB_OUTPUT_VALUES(slot, Type, name)                                                                   \
+    NumberBuffer<Type> name;                                                                                 \
+    static constexpr Format formatOf(Slot<slot>) { return numberFormat<Type>; }                              \
+    static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
+    RB_BIND(slot, outputValues, name)
 #define RB_CONSTANTS(slot, Type, name)                                                                       \
     Type name;                                                                                               \
-    static constexpr BindingKind kindOf(Slot<slot>) { return BindingKind::constants; }                       \
+    RB_SLOT(slot, constants, name)                                                                           \
     static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
     void bind(Slot<slot>, const Binding& binding) { name = *static_cast<const Type*>(binding.data); }
 #define RB_MAIN(pixel, extent) void run(const Pixel pixel) const {
+#define RB_ITEM_MAIN(item, count) void run(const Item item) const {
 #define RB_END_KERNEL                                                                                        \
     }                                                                                                        \
     }                                                                                                        \

@@ -8,9 +8,24 @@
 
 namespace rebound {
 
-// What a slot takes: a texture is an image of the device's own that is read, an input any image that is read; an image
-// is one of the device's own that is written, an output any that is written.
-enum class BindingKind : uint8_t { none, texture, input, image, output, buffer, constants };
+// Formats of images, as GPUs store them. A CPU stores 32 bits a channel, and only the channels in use. Those in "ui" hold
+// unsigned integers.
+enum class Format : uint8_t { r32f, rgba16f, rgba32f, r32ui, rgba32ui };
+
+// What a slot takes.
+enum class BindingKind : uint8_t {
+    none,
+    texture,     // an image of the device's own that is read
+    input,       // any image that is read
+    uintTexture, // the same two, of unsigned integers
+    uintInput,
+    image,        // an image of the device's own that is written
+    output,       // any image that is written
+    buffer,       // a table of structs that is read
+    values,       // a buffer of numbers that is read
+    outputValues, // a buffer of numbers that is written
+    constants,    // one struct
+};
 
 inline constexpr int slotCount = 16;
 inline constexpr int featureCapacity = 4;
@@ -18,8 +33,13 @@ inline constexpr int featureCapacity = 4;
 struct KernelInfo {
     BindingKind kinds[slotCount];       // what the kernel declares in each slot
     int featureCounts[featureCapacity]; // number of values of each feature; 1: no such feature
-    size_t sizes[slotCount]; // of what a slot of constants or of a buffer holds at least; 0: unknown [bytes]
-    uint16_t grids = 0;      // a bit a slot: its texture has a texel at every pixel of the grid; 0: unknown
+    size_t sizes[slotCount];            // of what a slot of constants or of a buffer holds at least [bytes]
+    Format formats[slotCount];          // of images that are written, and of buffers of numbers
+    const char* names[slotCount];       // as the kernel calls its slots; null: none
+    uint16_t grids;                     // a bit a slot: its texture has a texel at every pixel of the grid
+    bool forItems;                      // runs for items instead of pixels
+    // Whether a combination of features is among those that the kernel lists, by feature 0 + count 0 * (feature 1 + ...).
+    const bool* combinations;
 };
 
 } // namespace rebound

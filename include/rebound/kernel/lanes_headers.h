@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/packing.hpp>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #ifndef REBOUND_SCALAR_LANES
 #include <xsimd/xsimd.hpp>

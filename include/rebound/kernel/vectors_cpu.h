@@ -6,6 +6,8 @@ using Vec2 = glm::vec<2, Real, glm::highp>;
 using Vec3 = glm::vec<3, Real, glm::highp>;
 using Vec4 = glm::vec<4, Real, glm::highp>;
 using IVec2 = glm::vec<2, Int, glm::highp>;
+using UVec4 = glm::vec<4, UInt, glm::highp>;
+using uint = uint32_t;
 using glm::ivec2;
 using glm::ivec4;
 using glm::vec2;

@@ -31,22 +31,6 @@ struct KernelEntry;
 std::span<const KernelEntry* const> inputCheckKernels(Isa);
 } // namespace cpu
 
-enum class MotionUnit {
-    pixels,
-    textureCoordinates, // the picture is 1 wide and 1 high; y runs with the rows, as the image is stored
-    normalizedDevice,   // the picture is 2 wide and 2 high; y runs as the projection's
-};
-enum class MotionDirection {
-    toPrevious,  // where the surface was, less where it is
-    fromPrevious // where it is, less where it was
-};
-
-// How motion vectors were written.
-struct MotionConventions {
-    MotionUnit unit = MotionUnit::pixels;
-    MotionDirection direction = MotionDirection::toPrevious;
-};
-
 struct InputCheckSettings {
     Extent2D resolution;              // of the G-buffer, 1x1 to 16384x16384 [pixels]
     GBufferConventions conventions{}; // how the G-buffer is said to be written

@@ -4,6 +4,7 @@
 #define REBOUND_INPUT_CHECK_CONSTANTS_H
 
 #include "rebound/techniques/projection_feature.h"
+#include "rebound/techniques/reprojection_constants.h"
 
 // Each pixel of the grid sums every grid.x-th column of every grid.y-th row, so that neighbours read neighbours.
 struct TileConstants {
@@ -22,12 +23,8 @@ struct DepthReading {
     vec4 form;  // .x 1: the result is a distance along the pixel's ray, not along the viewing axis
 };
 
-// Where a surface that does not move was in the previous picture: pixel coordinates are .x/.z, .y/.z of the rows' products
-// with a position (view space of CameraConstants, 1).
 struct MotionConstants {
-    vec4 previousX;
-    vec4 previousY;
-    vec4 previousW;
+    ReprojectionConstants previous; // to the picture that motion leads to
     vec4 units; // .xy, .zw and .xy of moreUnits: to pixels, as stated and the two other units
     vec4 moreUnits;
 };

@@ -30,7 +30,8 @@ std::string sourceHash(const std::string& backend) {
 std::string planHash(const Plan& plan) {
     lab::ContentHash hash;
     hash.addRange(charactersOf(toText(plan)));
-    for (const Resource& resource : plan.resources) hash.addRange(resource.data);
+    for (const Resource& resource : plan.resources)
+        if (resource.data) hash.addRange(*resource.data);
     return hash.digits();
 }
 

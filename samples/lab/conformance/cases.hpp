@@ -19,6 +19,8 @@ struct Case {
     runner::PlanInputs inputs;
     runner::Precision precision = runner::Precision::half;
     std::vector<ImageTolerance> tolerances; // by resource of the plan
+    std::vector<runner::PlanInputs> later =
+        {}; // of the frames behind the first: what plans with history are run for
 };
 
 struct NamedCase {

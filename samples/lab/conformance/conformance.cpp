@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <string>
 
 namespace rebound::conformance {
 namespace {
@@ -14,29 +16,63 @@ Error during(const std::string& caseName, const std::string& contender, const Er
 }
 
 struct CaseResult {
-    Record record;
-    std::vector<lab::Image> outputs; // of a whole frame
+    std::vector<Record> records;                  // by frame
+    std::vector<std::vector<lab::Image>> outputs; // by frame, of whole frames
 };
 
-Result<CaseResult> resultOf(runner::Backend& backend, const Case& c, const Record* replacement) {
+bool isOutput(const Resource& r) {
+    return r.kind == ResourceKind::output || r.kind == ResourceKind::outputBuffer;
+}
+
+std::vector<const runner::PlanInputs*> framesOf(const Case& c) {
+    std::vector<const runner::PlanInputs*> frames{&c.inputs};
+    for (const runner::PlanInputs& inputs : c.later) frames.push_back(&inputs);
+    return frames;
+}
+
+Result<std::vector<lab::Image>> outputsOf(runner::PreparedPlan& prepared, const Plan& plan) {
+    std::vector<lab::Image> outputs;
+    for (const Resource& r : plan.resources) {
+        if (!isOutput(r)) continue;
+        auto image = prepared.read(r.name);
+        if (!image) return image.error();
+        outputs.push_back(*std::move(image));
+    }
+    return outputs;
+}
+
+// replacements: by frame.
+Result<CaseResult> resultOf(runner::Backend& backend, const Case& c,
+                            const std::vector<Record>* replacements) {
     auto prepared = backend.prepare(c.plan, c.inputs, {c.precision, true});
     if (!prepared) return prepared.error();
-    if (auto done = (*prepared)->run(); !done) return done.error();
     CaseResult result;
-    for (const Resource& r : c.plan.resources)
-        if (r.kind == ResourceKind::output) {
-            auto image = (*prepared)->read(r.name);
-            if (!image) return image.error();
-            result.outputs.push_back(*std::move(image));
-        }
-    auto record = (*prepared)->inspect(replacement);
-    if (!record) return record.error();
-    result.record = *std::move(record);
+    const auto frames = framesOf(c);
+    for (const runner::PlanInputs* inputs : frames) {
+        const auto done = inputs == &c.inputs ? (*prepared)->run() : (*prepared)->runFrame(*inputs);
+        if (!done) return done.error();
+        auto outputs = outputsOf(**prepared, c.plan);
+        if (!outputs) return outputs.error();
+        result.outputs.push_back(*std::move(outputs));
+    }
+    (*prepared)->reset();
+    for (size_t frame = 0; frame < frames.size(); ++frame) {
+        if (frames.size() > 1)
+            if (auto set = (*prepared)->setInputs(*frames[frame]); !set) return set.error();
+        auto record = (*prepared)->inspect(replacements ? &(*replacements)[frame] : nullptr);
+        if (!record) return record.error();
+        result.records.push_back(*std::move(record));
+    }
     return result;
 }
 
 // Pixels that are no numbers in both do not count; in one of them, they are beyond any bound.
-double relativeDifference(const lab::Image& reference, const lab::Image& value) {
+double relativeDifference(Format format, const lab::Image& reference, const lab::Image& value) {
+    if (isInteger(format))
+        return std::memcmp(reference.data.data(), value.data.data(), reference.data.size() * sizeof(float)) ==
+                       0
+                   ? 0.0
+                   : INFINITY;
     double squared = 0, power = 0;
     for (size_t i = 0; i < reference.data.size(); ++i) {
         const double a = reference.data[i], b = value.data[i];
@@ -71,27 +107,35 @@ void addFinding(Report& report, Finding finding) {
     if (row.disagreements == 1) report.disagreements.push_back(std::move(finding));
 }
 
-void comparePass(const NamedCase& named, const Case& c, const std::string& contender, size_t passIndex,
+void comparePass(const std::string& caseName, const Case& c, const std::string& contender, size_t passIndex,
                  const Record& reference, const Record& value, Report& report) {
     const Pass& pass = c.plan.passes[passIndex];
-    std::vector<PassImages> images;
-    std::vector<size_t> resources;
-    for (size_t i = 0; i < reference[passIndex].size(); ++i) {
-        resources.push_back(size_t(reference[passIndex][i].resource));
-        images.push_back({c.plan.resources[resources[i]].format, &c.tolerances[resources[i]],
-                          &reference[passIndex][i].image, &value[passIndex][i].image});
-    }
-    const std::vector<Difference> differences = compare(images);
-    for (size_t i = 0; i < images.size(); ++i) {
-        Finding finding{
-            contender,      named.name, pass.label, pass.kernel, c.plan.resources[resources[i]].name,
-            differences[i], {},         {}};
-        if (!differences[i].agrees()) {
-            finding.reference = *images[i].reference;
-            finding.value = *images[i].value;
+    const auto compareSome = [&](const std::vector<size_t>& written) {
+        std::vector<PassImages> images;
+        for (size_t i : written) {
+            const size_t r = size_t(reference[passIndex][i].resource);
+            images.push_back({c.plan.resources[r].format, &c.tolerances[r], &reference[passIndex][i].image,
+                              &value[passIndex][i].image});
         }
-        addFinding(report, std::move(finding));
-    }
+        const std::vector<Difference> differences = compare(images);
+        for (size_t i = 0; i < images.size(); ++i) {
+            const ResourceIndex r = reference[passIndex][written[i]].resource;
+            Finding finding{
+                contender,      caseName, pass.label, pass.kernel, c.plan.resources[size_t(r)].name,
+                differences[i], {},       {}};
+            if (!differences[i].agrees()) {
+                finding.reference = *images[i].reference;
+                finding.value = *images[i].value;
+            }
+            addFinding(report, std::move(finding));
+        }
+    };
+    // Images of a pass have its grid's size, and buffers sizes of their own.
+    std::vector<size_t> images;
+    for (size_t i = 0; i < reference[passIndex].size(); ++i)
+        if (isImage(c.plan.resources[size_t(reference[passIndex][i].resource)].kind)) images.push_back(i);
+        else compareSome({i});
+    compareSome(images);
 }
 
 class FrameRows {
@@ -138,11 +182,32 @@ bool Report::agrees() const {
            std::all_of(frames.begin(), frames.end(), isClean);
 }
 
+namespace {
+
+void compareFrames(const NamedCase& named, const Case& c, const std::string& contender,
+                   const CaseResult& reference, const CaseResult& value, Report& report, FrameRows& frames) {
+    for (size_t frame = 0; frame < reference.records.size(); ++frame) {
+        const std::string name =
+            c.later.empty() ? named.name : named.name + ", frame " + std::to_string(frame);
+        for (size_t pass = 0; pass < c.plan.passes.size(); ++pass)
+            comparePass(name, c, contender, pass, reference.records[frame], value.records[frame], report);
+        size_t output = 0;
+        for (const Resource& r : c.plan.resources) {
+            if (!isOutput(r)) continue;
+            frames.add(
+                contender, name,
+                relativeDifference(r.format, reference.outputs[frame][output], value.outputs[frame][output]));
+            ++output;
+        }
+    }
+}
+
+} // namespace
+
 Result<Report> run(const std::vector<NamedCase>& cases, std::vector<Contender>& contenders,
-                   const std::function<void(double)>& progress) {
-    runner::BackendChoice scalar;
-    scalar.isa = cpu::Isa::scalar;
-    auto yardstick = runner::createCpuBackend(scalar);
+                   const std::function<void(double)>& progress, runner::BackendChoice yardstickChoice) {
+    yardstickChoice.isa = cpu::Isa::scalar;
+    auto yardstick = runner::createCpuBackend(yardstickChoice);
     if (!yardstick) return yardstick.error();
     Report report;
     FrameRows frames;
@@ -152,13 +217,9 @@ Result<Report> run(const std::vector<NamedCase>& cases, std::vector<Contender>& 
         auto reference = resultOf(**yardstick, *made, nullptr);
         if (!reference) return during(named.name, "scalar", reference.error());
         for (Contender& contender : contenders) {
-            auto value = resultOf(*contender.backend, *made, &reference->record);
+            auto value = resultOf(*contender.backend, *made, &reference->records);
             if (!value) return during(named.name, contender.name, value.error());
-            for (size_t pass = 0; pass < made->plan.passes.size(); ++pass)
-                comparePass(named, *made, contender.name, pass, reference->record, value->record, report);
-            for (size_t i = 0; i < value->outputs.size(); ++i)
-                frames.add(contender.name, named.name,
-                           relativeDifference(reference->outputs[i], value->outputs[i]));
+            compareFrames(named, *made, contender.name, *reference, *value, report, frames);
         }
         report.cases += 1;
         if (progress) progress(double(report.cases) / double(cases.size()));

@@ -53,8 +53,9 @@ struct Report {
     bool agrees() const;
 };
 
-// Runs every case on the scalar CPU and on each contender. progress: called with the share that is done, 0 to 1.
+// Runs every case, all of its frames, on the scalar CPU and on each contender. progress: called with the share that is done,
+// 0 to 1. yardstick: which kernels the scalar CPU has beside the techniques' own; what else it says does not matter.
 Result<Report> run(const std::vector<NamedCase>&, std::vector<Contender>&,
-                   const std::function<void(double)>& progress = {});
+                   const std::function<void(double)>& progress = {}, runner::BackendChoice yardstick = {});
 
 } // namespace rebound::conformance

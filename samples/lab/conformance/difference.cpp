@@ -2,7 +2,9 @@
 #include "lab/conformance/difference.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace rebound::conformance {
 namespace {
@@ -23,8 +25,11 @@ double magnitudeOf(const ImageTolerance& t, const float* texel, int channel) {
     return t.isVector && channel < 3 ? lengthOf(texel) : std::abs(double(texel[channel]));
 }
 
-// Two values that are equal, or no numbers both.
-bool isSame(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+// Two values that are equal, or no numbers both; of integers, the same bits.
+bool isSame(Format format, float a, float b) {
+    if (isInteger(format)) return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
 
 double excess(const Tolerance& t, double difference, double magnitude) {
     if (!std::isfinite(difference)) return INFINITY;
@@ -41,7 +46,7 @@ struct Comparison {
         const float* b = images.value->at(x, y);
         double worst = 0.0;
         for (int c = 0; c < images.reference->channels; ++c) {
-            if (isSame(a[c], b[c])) continue;
+            if (isSame(images.format, a[c], b[c])) continue;
             const Tolerance& tolerance = images.tolerance->channels[size_t(c)];
             const double magnitude = magnitudeOf(*images.tolerance, a, c);
             double difference = std::abs(double(a[c]) - double(b[c]));

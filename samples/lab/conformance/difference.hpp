@@ -29,7 +29,7 @@ struct Difference {
     bool agrees() const { return beyond == 0 && double(decisions) <= allowedDecisions * double(texels) + 1; }
 };
 
-// Images that one pass wrote, in the order of its bindings: a decision shows in all of them.
+// Images of one size that one pass wrote, in the order of its bindings: a decision shows in all of them.
 struct PassImages {
     Format format;
     const ImageTolerance* tolerance;

@@ -16,6 +16,7 @@ ImageTolerance toleranceOf(Format format) {
             {2.0 * halfUlp, smallestHalf,
              "the half's rounding, up or down, on top of weights that agree to 1e-4; halves below the "
              "smallest normal one may be 0"});
+    if (isInteger(format)) return same({0.0, 0.0, "integers are exact"});
     return same({2e-6, 0.0, "a division, and a product or two"});
 }
 

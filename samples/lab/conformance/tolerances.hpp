@@ -24,7 +24,7 @@ struct ImageTolerance {
     bool isChosen = false;
 };
 
-// Of an image of that format of which nothing else is known.
+// Of an image or a buffer of numbers of that format, of which nothing else is known.
 ImageTolerance toleranceOf(Format);
 
 // By resource, of a plan of screen_indirect; largestRadiance: of its inputs.

@@ -3,6 +3,7 @@
 
 #include "lab/host/gl_functions.hpp"
 
+#include <array>
 #include <string>
 #include <utility>
 
@@ -10,7 +11,8 @@ namespace rebound::host {
 namespace {
 
 GLenum internalFormat(Format f) {
-    return f == Format::r32f ? GL_R32F : f == Format::rgba16f ? GL_RGBA16F : GL_RGBA32F;
+    constexpr std::array<GLenum, 5> formats{GL_R32F, GL_RGBA16F, GL_RGBA32F, GL_R32UI, GL_RGBA32UI};
+    return formats[size_t(f)];
 }
 
 // Four channels, whatever the image has.
@@ -52,19 +54,20 @@ OpenGLTexture::~OpenGLTexture() {
 
 void writeTexture(unsigned texture, Format format, const lab::Image& image) {
     std::vector<float> texels = withFourChannels(image);
-    GLenum layout = GL_RGBA;
-    if (format == Format::r32f) {
-        layout = GL_RED;
+    GLenum layout = isInteger(format) ? GL_RGBA_INTEGER : GL_RGBA;
+    if (format == Format::r32f || format == Format::r32ui) {
+        layout = isInteger(format) ? GL_RED_INTEGER : GL_RED;
         for (size_t i = 0; i < texels.size() / 4; ++i) texels[i] = texels[4 * i];
     }
     GLint before = 0;
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
     glBindTexture(GL_TEXTURE_2D, texture);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, layout, GL_FLOAT, texels.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, layout,
+                    isInteger(format) ? GL_UNSIGNED_INT : GL_FLOAT, texels.data());
     glBindTexture(GL_TEXTURE_2D, GLuint(before));
 }
 
-Result<lab::Image> readTexture(unsigned texture, Extent2D extent, int channels) {
+Result<lab::Image> readTexture(unsigned texture, Extent2D extent, int channels, bool ofIntegers) {
     if (channels < 1 || channels > 4)
         return invalidArgument("channels is " + std::to_string(channels) + "; 1 to 4 was expected");
     GLuint framebuffer = 0;
@@ -75,7 +78,9 @@ Result<lab::Image> readTexture(unsigned texture, Extent2D extent, int channels) 
     glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
     const bool complete = glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     std::vector<float> texels(size_t(extent.width) * size_t(extent.height) * 4);
-    if (complete) glReadPixels(0, 0, extent.width, extent.height, GL_RGBA, GL_FLOAT, texels.data());
+    if (complete)
+        glReadPixels(0, 0, extent.width, extent.height, ofIntegers ? GL_RGBA_INTEGER : GL_RGBA,
+                     ofIntegers ? GL_UNSIGNED_INT : GL_FLOAT, texels.data());
     glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(before));
     glDeleteFramebuffers(1, &framebuffer);
     if (!complete)

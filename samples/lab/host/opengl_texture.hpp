@@ -28,10 +28,11 @@ private:
 };
 
 // Replaces all of a texture of that format; row 0 of the image becomes row 0 of the texture. Channels that the image lacks
-// are 0, alpha 1.
+// are 0, alpha 1. Unsigned integers are given as floats of the same bits.
 void writeTexture(unsigned texture, Format, const lab::Image&);
 
 // The first channels of a texture that can be drawn to; row 0 of the texture becomes row 0 of the image.
-Result<lab::Image> readTexture(unsigned texture, Extent2D, int channels);
+// Unsigned integers become floats of the same bits.
+Result<lab::Image> readTexture(unsigned texture, Extent2D, int channels, bool ofIntegers = false);
 
 } // namespace rebound::host

@@ -3,22 +3,30 @@
 #include "lab/runner/inspection.hpp"
 #include "rebound/techniques/input_check.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace rebound::runner {
 namespace {
 
 class CpuPlan : public PreparedPlan {
 public:
-    static Result<std::unique_ptr<PreparedPlan>> create(const cpu::Device& device, const Plan& plan,
+    static Result<std::unique_ptr<PreparedPlan>> create(const cpu::Device& device,
+                                                        SharedBuffers<cpu::Buffer>& shared, const Plan& plan,
                                                         const PlanInputs& inputs,
                                                         const PrepareOptions& options) {
         auto program = device.compile(plan);
         if (!program) return program.error();
-        auto prepared = std::unique_ptr<CpuPlan>(new CpuPlan(*std::move(program)));
+        auto prepared = std::unique_ptr<CpuPlan>(new CpuPlan(device, shared, *std::move(program)));
         prepared->scalar = options.precision == Precision::half ? cpu::Scalar::float16 : cpu::Scalar::float32;
         prepared->images.resize(plan.resources.size());
-        for (size_t i = 0; i < plan.resources.size(); ++i)
-            if (const Resource& r = plan.resources[i]; r.kind == ResourceKind::output)
-                prepared->images[i] = HostImage(r.extent, r.channels, prepared->scalar);
+        prepared->buffers.resize(plan.resources.size());
+        for (size_t i = 0; i < plan.resources.size(); ++i) {
+            const Resource& r = plan.resources[i];
+            if (r.kind == ResourceKind::output)
+                prepared->images[i] = HostImage(r.extent, r.channels, prepared->scalarOf(r));
+            if (r.kind == ResourceKind::outputBuffer) prepared->buffers[i].resize(r.size);
+        }
         if (auto set = prepared->setInputs(inputs); !set) return set.error();
         return std::unique_ptr<PreparedPlan>(std::move(prepared));
     }
@@ -30,8 +38,14 @@ public:
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
             if (r.kind == ResourceKind::input)
-                images[i] = HostImage(**findPicture(plan, inputs, r),
-                                      r.format == Format::r32f ? cpu::Scalar::float32 : scalar);
+                images[i] = HostImage(**findPicture(plan, inputs, r), scalarOf(r));
+            if (r.kind == ResourceKind::inputBuffer) {
+                auto buffer = shared.obtain(device, *findBytes(plan, inputs, r));
+                if (!buffer) return buffer.error();
+                frame.buffers.push_back({r.name, *std::move(buffer)});
+            }
+            if (r.kind == ResourceKind::outputBuffer)
+                frame.buffers.push_back({r.name, {buffers[i].data(), r.size, {}}});
             if (r.kind == ResourceKind::input || r.kind == ResourceKind::output)
                 frame.images.push_back({r.name, images[i].view()});
         }
@@ -42,17 +56,23 @@ public:
     Result<double> run() override {
         const auto start = std::chrono::steady_clock::now();
         if (auto recorded = program.record(frame); !recorded) return recorded.error();
-        return millisecondsSince(start);
+        const double elapsed = millisecondsSince(start);
+        auto measured = program.timings();
+        if (!measured) return measured.error();
+        passTimings = *std::move(measured);
+        return elapsed;
     }
 
-    const std::vector<PassTiming>& timings() const override { return program.timings(); }
+    const std::vector<PassTiming>& timings() const override { return passTimings; }
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
     Result<lab::Image> read(const std::string& output) override {
         const auto index = findOutput(program.plan(), output);
         if (!index) return index.error();
-        return images[size_t(*index)].toLabImage();
+        return contents(*index);
     }
+
+    void reset() override { program.reset(); }
 
     Result<Record> inspect(const Record* replacement) override {
         return inspectPasses(
@@ -61,29 +81,43 @@ public:
     }
 
 private:
-    explicit CpuPlan(cpu::Program compiled) : program(std::move(compiled)) {}
+    CpuPlan(const cpu::Device& wrapped, SharedBuffers<cpu::Buffer>& given, cpu::Program compiled)
+        : device(wrapped), shared(given), program(std::move(compiled)) {}
+
+    cpu::Scalar scalarOf(const Resource& r) const {
+        if (isInteger(r.format)) return cpu::Scalar::uint32;
+        return r.kind == ResourceKind::input && r.format == Format::r32f ? cpu::Scalar::float32 : scalar;
+    }
 
     Result<lab::Image> contents(ResourceIndex index) const {
         const Resource& r = program.plan().resources[size_t(index)];
         if (r.kind == ResourceKind::output) return images[size_t(index)].toLabImage();
-        auto texels = program.readTransient(r.name);
-        if (!texels) return texels.error();
+        if (r.kind == ResourceKind::outputBuffer) return rowOf(buffers[size_t(index)]);
+        auto bytes = program.read(r.name);
+        if (!bytes) return bytes.error();
+        if (!isImage(r.kind)) return rowOf(*bytes);
         lab::Image image(r.extent, r.channels);
-        image.data = *std::move(texels);
+        std::memcpy(image.data.data(), bytes->data(), bytes->size());
         return image;
     }
 
     Result<> replace(ResourceIndex index, const lab::Image& image) {
         const Resource& r = program.plan().resources[size_t(index)];
-        if (r.kind != ResourceKind::output) return program.writeTransient(r.name, image.data);
-        images[size_t(index)].assign(image);
+        if (r.kind == ResourceKind::output) images[size_t(index)].assign(image);
+        else if (r.kind == ResourceKind::outputBuffer) // which frame points into
+            std::ranges::copy(bytesOf(image), buffers[size_t(index)].begin());
+        else return program.write(r.name, bytesOf(image));
         return {};
     }
 
+    const cpu::Device& device;
+    SharedBuffers<cpu::Buffer>& shared;
     cpu::Program program;
-    cpu::Scalar scalar = cpu::Scalar::float16; // of all but depth
-    std::vector<HostImage> images;             // by resource; empty where it is none of the host's
+    cpu::Scalar scalar = cpu::Scalar::float16;   // of all but depth
+    std::vector<HostImage> images;               // by resource; empty where it is none of the host's
+    std::vector<std::vector<std::byte>> buffers; // likewise; output buffers
     FrameInputs<cpu::Image> frame;
+    std::vector<PassTiming> passTimings;
 };
 
 class CpuBackend : public Backend {
@@ -94,11 +128,12 @@ public:
     Result<MemoryUse> memoryUse(const Plan& plan) const override { return device.memoryUse(plan); }
     Result<std::unique_ptr<PreparedPlan>> prepare(const Plan& plan, const PlanInputs& inputs,
                                                   const PrepareOptions& options) override {
-        return CpuPlan::create(device, plan, inputs, options);
+        return CpuPlan::create(device, shared, plan, inputs, options);
     }
 
 private:
     cpu::Device device;
+    SharedBuffers<cpu::Buffer> shared;
 };
 
 } // namespace
@@ -108,7 +143,8 @@ Result<std::unique_ptr<Backend>> createCpuBackend(const BackendChoice& choice) {
     options.isa = choice.isa;
     options.threads = choice.threads;
     options.timings = true;
-    options.moreKernels = {cpu::inputCheckKernels};
+    options.moreKernels = choice.moreKernels;
+    options.moreKernels.push_back(cpu::inputCheckKernels);
     auto device = cpu::Device::create(options);
     if (!device) return device.error();
     return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*std::move(device)));

@@ -30,7 +30,7 @@ void HostImage::assign(const lab::Image& image) {
         for (size_t pixel = 0; pixel < pixelCount(extent); ++pixel, next += sizeOf(scalar)) {
             const float value = image.data[pixel * size_t(channels) + c];
             const uint16_t half = halfOf(value);
-            std::memcpy(next, scalar == cpu::Scalar::float32 ? static_cast<const void*>(&value) : &half,
+            std::memcpy(next, scalar == cpu::Scalar::float16 ? &half : static_cast<const void*>(&value),
                         sizeOf(scalar));
         }
 }
@@ -43,7 +43,7 @@ lab::Image HostImage::toLabImage() const {
     for (size_t c = 0; c < size_t(channels); ++c)
         for (size_t pixel = 0; pixel < pixelCount(extent); ++pixel, next += sizeOf(scalar)) {
             float& value = image.data[pixel * size_t(channels) + c];
-            if (scalar == cpu::Scalar::float32) {
+            if (scalar != cpu::Scalar::float16) {
                 std::memcpy(&value, next, sizeof value);
             } else {
                 uint16_t half = 0;

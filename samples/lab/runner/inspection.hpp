@@ -14,10 +14,11 @@ inline double millisecondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The output of that name, or an error.
+// The output or output buffer of that name, or an error.
 inline Result<ResourceIndex> findOutput(const Plan& plan, const std::string& name) {
     const ResourceIndex index = plan.find(name);
-    if (index < 0 || plan.resources[size_t(index)].kind != ResourceKind::output)
+    const ResourceKind kind = index < 0 ? ResourceKind::input : plan.resources[size_t(index)].kind;
+    if (kind != ResourceKind::output && kind != ResourceKind::outputBuffer)
         return Error{ErrorCode::notFound, "the plan has no output named " + name};
     return index;
 }
@@ -34,7 +35,8 @@ Result<Record> inspectPasses(Program& program, const Frame& frame, const Record*
             if (b.access != Access::write) continue;
             Result<lab::Image> image = contents(b.resource);
             if (!image) return image.error();
-            roundTo(plan.resources[size_t(b.resource)].format, *image);
+            if (isImage(plan.resources[size_t(b.resource)].kind))
+                roundTo(plan.resources[size_t(b.resource)].format, *image);
             std::vector<WrittenImage>& written = record[pass];
             const lab::Image& next = replacement ? (*replacement)[pass][written.size()].image : *image;
             if (Result<> replaced = replace(b.resource, next); !replaced) return replaced;

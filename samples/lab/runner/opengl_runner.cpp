@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/host/gl_functions.hpp"
+#include "lab/host/opengl_buffer.hpp"
 #include "lab/host/opengl_context.hpp"
 #include "lab/host/opengl_texture.hpp"
 #include "lab/runner/inspection.hpp"
@@ -9,18 +10,22 @@
 namespace rebound::runner {
 namespace {
 
+using host::OpenGLBuffer;
 using host::OpenGLContext;
 using host::OpenGLTexture;
 
 class OpenGLPlan : public PreparedPlan {
 public:
-    OpenGLPlan(opengl::Program compiled, Precision hostPrecision)
-        : program(std::move(compiled)), precision(hostPrecision) {
+    OpenGLPlan(const opengl::Device& d, SharedBuffers<opengl::Buffer>& given, opengl::Program compiled,
+               Precision hostPrecision)
+        : device(d), shared(given), program(std::move(compiled)), precision(hostPrecision) {
         const Plan& plan = program.plan();
         textures.resize(plan.resources.size());
+        buffers.resize(plan.resources.size());
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
-            if (r.kind != ResourceKind::input && r.kind != ResourceKind::output) continue;
+            if (r.kind == ResourceKind::outputBuffer) buffers[i] = OpenGLBuffer(r.size);
+            if (!isHostImage(r.kind)) continue;
             textures[i] =
                 OpenGLTexture(r.kind == ResourceKind::input ? inputFormat(r, precision) : r.format, r.extent);
             frame.images.push_back({r.name, {textures[i].name()}});
@@ -30,8 +35,16 @@ public:
     Result<> setInputs(const PlanInputs& inputs) override {
         const Plan& plan = program.plan();
         if (auto valid = checkInputs(plan, inputs); !valid) return valid;
+        frame.buffers.clear();
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
+            if (r.kind == ResourceKind::outputBuffer)
+                frame.buffers.push_back({r.name, {buffers[i].name(), 0, r.size, {}}});
+            if (r.kind == ResourceKind::inputBuffer) {
+                auto buffer = shared.obtain(device, *findBytes(plan, inputs, r));
+                if (!buffer) return buffer.error();
+                frame.buffers.push_back({r.name, *std::move(buffer)});
+            }
             if (r.kind != ResourceKind::input) continue;
             const Format format = inputFormat(r, precision);
             lab::Image image = **findPicture(plan, inputs, r);
@@ -47,10 +60,14 @@ public:
         if (auto recorded = program.record(frame); !recorded) return recorded.error();
         recording = millisecondsSince(start);
         glFinish();
-        return millisecondsSince(start);
+        const double elapsed = millisecondsSince(start);
+        auto measured = program.timings();
+        if (!measured) return measured.error();
+        passTimings = *std::move(measured);
+        return elapsed;
     }
 
-    const std::vector<PassTiming>& timings() const override { return program.timings(); }
+    const std::vector<PassTiming>& timings() const override { return passTimings; }
     std::optional<double> recordingTime() const override { return recording; }
     MemoryUse memoryUse() const override { return program.memoryUse(); }
 
@@ -59,6 +76,8 @@ public:
         if (!index) return index.error();
         return contents(*index);
     }
+
+    void reset() override { program.reset(); }
 
     Result<Record> inspect(const Record* replacement) override {
         return inspectPasses(
@@ -69,29 +88,53 @@ public:
 private:
     Result<unsigned> textureOf(ResourceIndex index) const {
         const Resource& r = program.plan().resources[size_t(index)];
-        if (r.kind == ResourceKind::transient) return program.transientTexture(r.name);
+        if (!isHostImage(r.kind)) return program.ownTexture(r.name);
         return textures[size_t(index)].name();
     }
 
+    Result<opengl::Buffer> bufferOf(ResourceIndex index) const {
+        const Resource& r = program.plan().resources[size_t(index)];
+        if (r.kind != ResourceKind::outputBuffer) return program.ownBuffer(r.name);
+        return opengl::Buffer{buffers[size_t(index)].name(), 0, r.size, {}};
+    }
+
     Result<lab::Image> contents(ResourceIndex index) const {
+        if (const Resource& r = program.plan().resources[size_t(index)]; !isImage(r.kind)) {
+            const auto buffer = bufferOf(index);
+            if (!buffer) return buffer.error();
+            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+            auto bytes = host::readBuffer(buffer->buffer, buffer->offset, r.size);
+            if (!bytes) return bytes.error();
+            return rowOf(*bytes);
+        }
         const auto texture = textureOf(index);
         if (!texture) return texture.error();
         glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
         const Resource& r = program.plan().resources[size_t(index)];
-        return host::readTexture(*texture, r.extent, r.channels);
+        return host::readTexture(*texture, r.extent, r.channels, isInteger(r.format));
     }
 
     Result<> replace(ResourceIndex index, const lab::Image& image) {
+        if (!isImage(program.plan().resources[size_t(index)].kind)) {
+            const auto buffer = bufferOf(index);
+            if (!buffer) return buffer.error();
+            host::writeBuffer(buffer->buffer, buffer->offset, bytesOf(image));
+            return {};
+        }
         const auto texture = textureOf(index);
         if (!texture) return texture.error();
         host::writeTexture(*texture, program.plan().resources[size_t(index)].format, image);
         return {};
     }
 
+    const opengl::Device& device;
+    SharedBuffers<opengl::Buffer>& shared;
     opengl::Program program;
     Precision precision;
     std::vector<OpenGLTexture> textures; // by resource; none where it is none of the host's
+    std::vector<OpenGLBuffer> buffers;   // likewise; output buffers
     FrameInputs<opengl::Image> frame;
+    std::vector<PassTiming> passTimings;
     double recording = 0; // [ms]
 };
 
@@ -106,7 +149,7 @@ public:
                                                   const PrepareOptions& options) override {
         auto program = device.compile(plan);
         if (!program) return program.error();
-        auto prepared = std::make_unique<OpenGLPlan>(*std::move(program), options.precision);
+        auto prepared = std::make_unique<OpenGLPlan>(device, shared, *std::move(program), options.precision);
         if (auto set = prepared->setInputs(inputs); !set) return set.error();
         return std::unique_ptr<PreparedPlan>(std::move(prepared));
     }
@@ -116,6 +159,7 @@ public:
 private:
     OpenGLContext context;
     opengl::Device device;
+    SharedBuffers<opengl::Buffer> shared;
 };
 
 } // namespace
@@ -130,7 +174,8 @@ Result<std::unique_ptr<Backend>> createOpenGLBackend(const BackendChoice& choice
     opengl::DeviceOptions options;
     options.loader = OpenGLContext::functionNamed;
     options.timings = true;
-    options.moreShaders = {inputCheckShaders()};
+    options.moreShaders = choice.moreShaders;
+    options.moreShaders.push_back(inputCheckShaders());
     auto device = opengl::Device::create(options);
     if (!device) return Error{device.error().code, "OpenGL: " + device.error().message};
     return std::unique_ptr<Backend>(std::make_unique<OpenGLBackend>(*std::move(context), *std::move(device)));

@@ -2,6 +2,7 @@
 #include "lab/runner/runner.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace rebound::runner {
 
@@ -48,10 +49,33 @@ Result<const lab::Image*> findPicture(const Plan& plan, const PlanInputs& inputs
     return invalidArgument("inputs: the plan " + plan.technique + " needs " + r.name);
 }
 
+Result<SharedBytes> findBytes(const Plan& plan, const PlanInputs& inputs, const Resource& r) {
+    for (const NamedBuffer<SharedBytes>& named : inputs.buffers) {
+        if (named.name != r.name || !named.buffer) continue;
+        if (named.buffer->size() < r.size) return detail::smallBuffer(r, named.buffer->size());
+        return named.buffer;
+    }
+    return invalidArgument("inputs: the plan " + plan.technique + " needs " + r.name);
+}
+
+lab::Image rowOf(std::span<const std::byte> bytes) {
+    lab::Image row({int(bytes.size() / sizeof(float)), 1}, 1);
+    std::memcpy(row.data.data(), bytes.data(), row.data.size() * sizeof(float));
+    return row;
+}
+
+std::vector<std::byte> bytesOf(const lab::Image& row) {
+    std::vector<std::byte> bytes(row.data.size() * sizeof(float));
+    std::memcpy(bytes.data(), row.data.data(), bytes.size());
+    return bytes;
+}
+
 Result<> checkInputs(const Plan& plan, const PlanInputs& inputs) {
     for (const Resource& r : plan.resources) {
         if (r.kind == ResourceKind::input)
             if (auto picture = findPicture(plan, inputs, r); !picture) return picture.error();
+        if (r.kind == ResourceKind::inputBuffer)
+            if (auto bytes = findBytes(plan, inputs, r); !bytes) return bytes.error();
         if (r.kind != ResourceKind::frameConstants) continue;
         const auto constants = std::find_if(inputs.constants.begin(), inputs.constants.end(),
                                             [&](const NamedConstants& c) { return c.name == r.name; });
@@ -70,7 +94,7 @@ Result<double> PreparedPlan::runFrame(const PlanInputs& inputs) {
 }
 
 Format inputFormat(const Resource& r, Precision precision) {
-    if (r.format == Format::r32f) return Format::r32f;
+    if (r.format == Format::r32f || isInteger(r.format)) return r.format;
     return precision == Precision::half ? Format::rgba16f : Format::rgba32f;
 }
 

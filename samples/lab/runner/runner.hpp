@@ -5,6 +5,7 @@
 #include "lab/images/image.hpp"
 #include "rebound/cpu/device.hpp"
 #include "rebound/device.hpp"
+#include "rebound/shaders.hpp"
 
 #include <functional>
 #include <memory>
@@ -17,14 +18,16 @@ namespace rebound::runner {
 // How a host keeps normals, colours and radiance; depth is always in single precision.
 enum class Precision { half, single };
 
-// A frame as techniques fill it, such as screenIndirectInputs(). A backend makes the outputs' images itself: what stands
-// for them here is not looked at.
+// A frame as techniques fill it, such as screenIndirectInputs(). A backend makes the outputs' images and output buffers
+// itself: what stands for them here is not looked at. Images of unsigned integers are given as floats of the same bits.
+// Bytes of an input buffer are handed to the device once, and shared by all plans of the backend that are given them.
 using PlanInputs = FrameInputs<lab::Image>;
 
 // What a pass has written.
 struct WrittenImage {
     ResourceIndex resource = 0;
-    lab::Image image; // the channels in use
+    lab::Image
+        image; // the channels in use; of unsigned integers: floats of the same bits. Of a buffer of numbers: one row
 };
 // By pass.
 using Record = std::vector<std::vector<WrittenImage>>;
@@ -46,7 +49,10 @@ public:
     // What recording the last run() took the host, where a GPU then does the work [ms]; nothing on the CPU.
     virtual std::optional<double> recordingTime() const { return {}; }
     virtual MemoryUse memoryUse() const = 0;
+    // An output, or an output buffer as WrittenImage has it.
     virtual Result<lab::Image> read(const std::string& output) = 0;
+    // The next frame is a first one: history and persistent buffers hold zeros.
+    virtual void reset() = 0;
 
     // Runs one frame and tells what every pass has written. Behind each pass, what it has written is replaced: by what
     // `replacement` holds for it, so that no difference outlives its pass, or, without one, by itself in the precision
@@ -87,6 +93,9 @@ struct BackendChoice {
     cpu::Isa isa = cpu::Isa::automatic;
     int threads = 0;         // of the CPU; 0: one a core
     bool validation = false; // of vulkan: its validation layers; of opengl: debug output
+    // Kernels beside the techniques' own.
+    std::vector<std::span<const cpu::KernelEntry* const> (*)(cpu::Isa)> moreKernels = {};
+    std::vector<std::span<const Shader* const>> moreShaders = {};
 };
 
 // Those that are built in: cpu, and vulkan and opengl where they are.
@@ -105,8 +114,31 @@ Result<std::unique_ptr<Backend>> createOpenGLBackend(const BackendChoice&);
 
 // The input's picture, or an error that names it.
 Result<const lab::Image*> findPicture(const Plan&, const PlanInputs&, const Resource&);
-// That every input has a picture, and all frame constants their bytes.
+// The input buffer's bytes, or an error that names it.
+Result<SharedBytes> findBytes(const Plan&, const PlanInputs&, const Resource&);
+// That every input has a picture, and all frame constants and input buffers their bytes.
 Result<> checkInputs(const Plan&, const PlanInputs&);
+// A buffer of numbers as one row, and back.
+lab::Image rowOf(std::span<const std::byte>);
+std::vector<std::byte> bytesOf(const lab::Image& row);
+
+// A device's buffers, made once for each set of bytes that plans are given.
+template <class Buffer>
+class SharedBuffers {
+public:
+    template <class Device>
+    Result<Buffer> obtain(const Device& device, const SharedBytes& bytes) {
+        for (const auto& [known, buffer] : made)
+            if (known == bytes) return buffer;
+        auto buffer = device.createBuffer(*bytes);
+        if (buffer) made.emplace_back(bytes, *buffer);
+        return buffer;
+    }
+
+private:
+    std::vector<std::pair<SharedBytes, Buffer>> made;
+};
+
 // How GPUs are given an input of the host's.
 Format inputFormat(const Resource&, Precision);
 

@@ -10,7 +10,7 @@
 namespace rebound::runner {
 namespace {
 
-int channelsOf(Format format) { return format == Format::r32f ? 1 : 4; }
+int channelsOf(Format format) { return format == Format::r32f || format == Format::r32ui ? 1 : 4; }
 
 } // namespace
 

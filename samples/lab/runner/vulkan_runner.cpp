@@ -24,15 +24,28 @@ Result<std::unique_ptr<VulkanBuffer>> stagingBuffer(const VulkanContext& context
 
 class VulkanPlan : public PreparedPlan {
 public:
-    VulkanPlan(const VulkanContext& c, vulkan::Program compiled) : context(c), program(std::move(compiled)) {}
+    VulkanPlan(const VulkanContext& c, const vulkan::Device& d, SharedBuffers<vulkan::Buffer>& given,
+               vulkan::Program compiled)
+        : context(c), device(d), shared(given), program(std::move(compiled)) {}
 
     Result<> createImages(Precision precision) {
         const Plan& plan = program.plan();
         images.resize(plan.resources.size());
         formats.resize(plan.resources.size());
+        buffers.resize(plan.resources.size());
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
-            if (r.kind != ResourceKind::input && r.kind != ResourceKind::output) continue;
+            if (r.kind == ResourceKind::outputBuffer) {
+                auto buffer = VulkanBuffer::create(context, r.size,
+                                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                   hostMemory);
+                if (!buffer) return buffer.error();
+                buffers[i] = *std::move(buffer);
+                std::memset(buffers[i]->mapped, 0, r.size);
+            }
+            if (!isHostImage(r.kind)) continue;
             const Format format = r.kind == ResourceKind::input ? inputFormat(r, precision) : r.format;
             constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
@@ -52,8 +65,16 @@ public:
     Result<> setInputs(const PlanInputs& inputs) override {
         const Plan& plan = program.plan();
         if (auto valid = checkInputs(plan, inputs); !valid) return valid;
+        frame.buffers.clear();
         for (size_t i = 0; i < plan.resources.size(); ++i) {
             const Resource& r = plan.resources[i];
+            if (r.kind == ResourceKind::outputBuffer)
+                frame.buffers.push_back({r.name, {buffers[i]->buffer, 0, r.size, {}}});
+            if (r.kind == ResourceKind::inputBuffer) {
+                auto buffer = shared.obtain(device, *findBytes(plan, inputs, r));
+                if (!buffer) return buffer.error();
+                frame.buffers.push_back({r.name, *std::move(buffer)});
+            }
             if (r.kind != ResourceKind::input) continue;
             const auto texels = texelsOf(**findPicture(plan, inputs, r), formats[i]);
             if (auto filled = fill(i, texels, VK_IMAGE_LAYOUT_GENERAL); !filled) return filled;
@@ -72,7 +93,7 @@ public:
         });
         if (!done) return done.error();
         const double elapsed = millisecondsSince(start);
-        auto measured = program.timings(0);
+        auto measured = program.timings();
         if (!measured) return measured.error();
         passTimings = *std::move(measured);
         return elapsed;
@@ -86,6 +107,7 @@ public:
         const auto index = findOutput(program.plan(), output);
         if (!index) return index.error();
         const Resource& r = program.plan().resources[size_t(*index)];
+        if (r.kind == ResourceKind::outputBuffer) return rowOf({buffers[size_t(*index)]->mapped, r.size});
         auto staging = stagingBuffer(context, sizeOf(r));
         if (!staging) return staging.error();
         const auto done = context.run([&](VkCommandBuffer commands) -> Result<> {
@@ -97,6 +119,8 @@ public:
         return imageOf((*staging)->mapped, r.format, r.extent, r.channels);
     }
 
+    void reset() override { program.reset(); }
+
     // All in one submission: behind each pass, what it wrote is copied out and the replacement copied in.
     Result<Record> inspect(const Record* replacement) override {
         const Plan& plan = program.plan();
@@ -105,24 +129,19 @@ public:
         for (size_t pass = 0; pass < plan.passes.size(); ++pass)
             for (const PassBinding& b : plan.passes[pass].bindings) {
                 if (b.access != Access::write) continue;
-                auto image = imageToCopy(b.resource);
-                if (!image) return image.error();
-                copies.push_back({pass, b.resource, *image, size});
+                copies.push_back({pass, b.resource, size});
                 size += (sizeOf(plan.resources[size_t(b.resource)]) + 15) / 16 * 16;
             }
         auto out = stagingBuffer(context, size), in = stagingBuffer(context, replacement ? size : 0);
         if (!out) return out.error();
         if (!in) return in.error();
         if (replacement) writeReplacement(*replacement, copies, **in);
+        Result<> copied;
         program.onPass([&](VkCommandBuffer commands, int pass) {
             host::recordFullBarrier(commands);
             for (const Copy& copy : copies) {
-                if (copy.pass != size_t(pass)) continue;
-                const Extent2D extent = plan.resources[size_t(copy.resource)].extent;
-                host::recordDownload(commands, copy.image, extent, (*out)->buffer, copy.offset);
-                if (!replacement) continue;
-                host::recordFullBarrier(commands);
-                host::recordUpload(commands, (*in)->buffer, copy.offset, copy.image, extent);
+                if (copy.pass != size_t(pass) || !copied) continue;
+                copied = recordCopies(commands, copy, **out, replacement ? in->get() : nullptr);
             }
             host::recordFullBarrier(commands);
         });
@@ -130,11 +149,14 @@ public:
             context.run([&](VkCommandBuffer commands) { return program.record(commands, 0, frame); });
         program.onPass({});
         if (!done) return done.error();
+        if (!copied) return copied.error();
         Record record(plan.passes.size());
         for (const Copy& copy : copies) {
             const Resource& r = plan.resources[size_t(copy.resource)];
-            record[copy.pass].push_back(
-                {copy.resource, imageOf((*out)->mapped + copy.offset, r.format, r.extent, r.channels)});
+            const std::byte* from = (*out)->mapped + copy.offset;
+            record[copy.pass].push_back({copy.resource, isImage(r.kind)
+                                                            ? imageOf(from, r.format, r.extent, r.channels)
+                                                            : rowOf({from, r.size})});
         }
         return record;
     }
@@ -143,18 +165,45 @@ private:
     struct Copy {
         size_t pass;
         ResourceIndex resource;
-        VkImage image;
         size_t offset; // in the staging buffers [bytes]
     };
 
     static size_t sizeOf(Format format, Extent2D extent) {
         return bytesPerTexel(format) * size_t(extent.width) * size_t(extent.height);
     }
-    static size_t sizeOf(const Resource& r) { return sizeOf(r.format, r.extent); }
+    static size_t sizeOf(const Resource& r) { return rebound::sizeOf(r); }
 
     Result<VkImage> imageToCopy(ResourceIndex index) const {
         if (images[size_t(index)]) return images[size_t(index)]->image;
-        return program.transientImage(program.plan().resources[size_t(index)].name);
+        return program.ownImage(program.plan().resources[size_t(index)].name);
+    }
+
+    Result<vulkan::Buffer> bufferToCopy(ResourceIndex index) const {
+        const Resource& r = program.plan().resources[size_t(index)];
+        if (const auto& own = buffers[size_t(index)]) return vulkan::Buffer{own->buffer, 0, r.size, {}};
+        return program.ownBuffer(r.name);
+    }
+
+    // What a pass wrote is copied out, and then, where there is something to replace it by, that is copied in.
+    Result<> recordCopies(VkCommandBuffer commands, const Copy& copy, const VulkanBuffer& out,
+                          const VulkanBuffer* in) const {
+        const Resource& r = program.plan().resources[size_t(copy.resource)];
+        if (isImage(r.kind)) {
+            const auto image = imageToCopy(copy.resource);
+            if (!image) return image.error();
+            host::recordDownload(commands, *image, r.extent, out.buffer, copy.offset);
+            host::recordFullBarrier(commands);
+            if (in) host::recordUpload(commands, in->buffer, copy.offset, *image, r.extent);
+        } else {
+            const auto buffer = bufferToCopy(copy.resource);
+            if (!buffer) return buffer.error();
+            const VkBufferCopy outwards{buffer->offset, copy.offset, r.size},
+                inwards{copy.offset, buffer->offset, r.size};
+            vkCmdCopyBuffer(commands, buffer->buffer, out.buffer, 1, &outwards);
+            host::recordFullBarrier(commands);
+            if (in) vkCmdCopyBuffer(commands, in->buffer, buffer->buffer, 1, &inwards);
+        }
+        return {};
     }
 
     void writeReplacement(const Record& replacement, const std::vector<Copy>& copies,
@@ -163,7 +212,8 @@ private:
         for (size_t i = 0; i < copies.size(); ++i) {
             index = i > 0 && copies[i].pass == copies[i - 1].pass ? index + 1 : 0;
             const lab::Image& image = replacement[copies[i].pass][index].image;
-            const auto texels = texelsOf(image, program.plan().resources[size_t(copies[i].resource)].format);
+            const Resource& r = program.plan().resources[size_t(copies[i].resource)];
+            const auto texels = isImage(r.kind) ? texelsOf(image, r.format) : bytesOf(image);
             std::memcpy(in.mapped + copies[i].offset, texels.data(), texels.size());
         }
     }
@@ -183,9 +233,12 @@ private:
     }
 
     const VulkanContext& context;
+    const vulkan::Device& device;
+    SharedBuffers<vulkan::Buffer>& shared;
     vulkan::Program program;
-    std::vector<std::unique_ptr<VulkanImage>> images; // by resource; null where it is none of the host's
-    std::vector<Format> formats;                      // of images
+    std::vector<std::unique_ptr<VulkanImage>> images;   // by resource; null where it is none of the host's
+    std::vector<Format> formats;                        // of images
+    std::vector<std::unique_ptr<VulkanBuffer>> buffers; // likewise; output buffers
     FrameInputs<vulkan::Image> frame;
     std::vector<PassTiming> passTimings;
     double recording = 0; // [ms]
@@ -205,7 +258,7 @@ public:
                                                   const PrepareOptions& options) override {
         auto program = device.compile(plan, {1, nullptr, options.inspectable});
         if (!program) return program.error();
-        auto prepared = std::make_unique<VulkanPlan>(context, *std::move(program));
+        auto prepared = std::make_unique<VulkanPlan>(context, device, shared, *std::move(program));
         if (auto made = prepared->createImages(options.precision); !made) return made.error();
         if (auto set = prepared->setInputs(inputs); !set) return set.error();
         return std::unique_ptr<PreparedPlan>(std::move(prepared));
@@ -214,6 +267,7 @@ public:
 private:
     VulkanContext context;
     vulkan::Device device;
+    SharedBuffers<vulkan::Buffer> shared;
 };
 
 } // namespace
@@ -231,8 +285,9 @@ Result<std::unique_ptr<Backend>> createVulkanBackend(const BackendChoice& choice
     options.device = context->device();
     options.queueFamily = context->queueFamily();
     options.timings = true;
-    options.moreShaders = {inputCheckShaders()};
     options.debugUtils = context->hasDebugUtils();
+    options.moreShaders = choice.moreShaders;
+    options.moreShaders.push_back(inputCheckShaders());
     auto device = vulkan::Device::create(options);
     if (!device) return device.error();
     return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(*std::move(context), *std::move(device)));

@@ -110,4 +110,47 @@ const int lightUnpacked = 3;
 const int lightUnpackedArea = 4;
 const int lightModeCount = 5;
 
+// Operations of the kernel integers.
+const int uintAdd = 0;
+const int uintSubtract = 1;
+const int uintMultiply = 2;
+const int uintAnd = 3;
+const int uintOr = 4;
+const int uintXor = 5;
+const int uintNot = 6;
+const int uintShiftRight = 7;
+const int uintShiftLeft = 8;
+const int uintLess = 9;
+const int uintGreater = 10;
+const int uintEqual = 11;
+const int uintSelect = 12;
+const int uintToReal = 13;
+const int uintFromReal = 14;
+const int uintFloatBits = 15;
+const int uintBitCount = 16;
+const int uintToInt = 17;
+const int uintFromInt = 18;
+const int uintOffset = 19;
+const int uintAddTo = 20;
+const int uintOpCount = 21;
+
+// Ways of the kernel numbers to reach a buffer's elements.
+const int reachItem = 0;
+const int reachOffset = 1;
+const int reachAt = 2;
+const int reachUniform = 3;
+const int reachStoreOffset = 4;
+const int reachStoreAt = 5;
+const int reachCount = 6;
+
+struct ItemConstants {
+    ivec4 count; // .x of items, .y offset [elements]
+};
+
+// Of the made-up technique: sums over frames of what pixels hold.
+struct SumConstants {
+    ivec4 extent; // .xy of the image [texels], .z their number
+    vec4 share;   // .x of a frame in the mean over frames
+};
+
 #endif

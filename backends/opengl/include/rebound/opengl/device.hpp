@@ -8,14 +8,25 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 
 namespace rebound::opengl {
 
+// A buffer object of the host. An output buffer is nothing else of the frame as well.
+struct Buffer {
+    unsigned buffer = 0; // the host's name for it
+    size_t offset = 0;   // of its first byte; a multiple of GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT [bytes]
+    size_t size = 0;     // from there on; at least the plan's resource's [bytes]
+    std::shared_ptr<void> shared; // of Device::createBuffer(): keeps the buffer object
+};
+
 // An image of the host: a GL_TEXTURE_2D, of which level 0 is used. Its size and format are asked of OpenGL.
-// Inputs may have any format that samples as floats, depth formats included; outputs have the one that the
-// kernel declares (rgba16f for those of the techniques), and on ES immutable storage. No output may be
+// Inputs may have any format that samples as floats, depth formats included, or as unsigned integers where the plan says so;
+// outputs have the one that the kernel declares (rgba16f for those of the techniques), and on ES immutable storage. No output may be
 // another image of the frame as well.
 struct Image {
+    using Buffer = opengl::Buffer;
+
     unsigned texture = 0; // the host's name for it
 };
 
@@ -45,8 +56,12 @@ public:
     // is pending; device and context stay as they were.
     Result<Program> compile(const Plan&) const;
 
-    // What compile() would ask OpenGL for; drivers may pad it. Zero where the plan is not valid.
-    MemoryUse memoryUse(const Plan&) const;
+    // What compile() would ask OpenGL for; drivers may pad it. Fails where the plan is not valid.
+    Result<MemoryUse> memoryUse(const Plan&) const;
+
+    // An input buffer that any number of programs are handed in each frame, with one upload of the data. It lives as long
+    // as a copy of the handle, the last of which goes while the context is current. Fails as compile() does.
+    Result<Buffer> createBuffer(std::span<const std::byte>) const;
 
     bool isEs() const;       // whether the context is one of OpenGL ES
     bool hasTimings() const; // whether timings were asked for, and the context has timestamps
@@ -65,16 +80,21 @@ public:
     // image is null, deleted, or of a size or format other than expected.
     Result<> record(const FrameInputs<Image>&);
 
+    // The next frame is a first one: history and persistent buffers hold zeros, and FrameState says so.
+    void reset();
+
     // Of the latest frame that the GPU has finished, a pass each in the plan's order; empty before that, and
     // where Device::hasTimings() is false; what they were before, once the context is lost. Never waits.
-    const std::vector<PassTiming>& timings() const;
+    Result<std::vector<PassTiming>> timings() const;
 
     const Plan& plan() const;
     MemoryUse memoryUse() const;
 
-    // The texture of a transient image: for tests and for looking at what a pass left. Others with disjoint
-    // lifetimes share it: read it from within onPass().
-    Result<unsigned> transientTexture(std::string_view name) const;
+    // The texture of an image of the device's own, of history the one that the frame writes: for tests and for looking at
+    // what a pass left. Transients with disjoint lifetimes share it: read it from within onPass().
+    Result<unsigned> ownTexture(std::string_view name) const;
+    // The same of a transient or persistent buffer.
+    Result<Buffer> ownBuffer(std::string_view name) const;
 
     // Called after the commands of each pass of record() are issued, with the pass's index; empty: never.
     // What the pass wrote may be read then. The callback leaves bindings as it found them.
