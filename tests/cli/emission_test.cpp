@@ -70,7 +70,8 @@ TEST_CASE("where emissive surfaces light directly, nothing of it is gathered aga
 
     // Left to be gathered, it arrives by gathering alone.
     succeeds("render lamp.gltf --view off.json --out off" + common, folder);
-    CHECK(largest(read(folder / "off" / "indirect.exr")) > 0.01f);
+    // A hundred times what may be there above: 24x14 texels, and a mean over 5x5 of them, leave little of the peak.
+    CHECK(largest(read(folder / "off" / "indirect.exr")) > 1e-3f);
     CHECK(read(folder / "off" / "direct.exr").data == seen.data);
 
     // The path tracer says the same of both, and writes frames that --frame gathers from in the same way.
