@@ -186,12 +186,12 @@ TEST_CASE("reprojection: where another camera's matrices put a point, pixel by p
     const Camera from{glm::translate(turn, glm::vec3(1.0f, -0.5f, -2.0f)),
                       glm::perspectiveRH_ZO(1.0f, 1.5f, 0.1f, 100.0f)},
         to{glm::translate(glm::mat4(1.0f), glm::vec3(0.8f, -0.4f, -2.2f)), from.projection};
-    const Extent2D extent{300, 200};
+    const Extent2D pictureSize{300, 200};
     for (FirstRow firstRow : {FirstRow::top, FirstRow::bottom})
         for (const glm::vec3 point : {glm::vec3(0, 0, -3), glm::vec3(1, 0.5f, -6), glm::vec3(-2, 1, -9)}) {
             GBufferConventions conventions;
             conventions.firstRow = firstRow;
-            const ReprojectionConstants k = reprojection(from, to, conventions, extent);
+            const ReprojectionConstants k = reprojection(from, to, conventions, pictureSize);
             glm::vec4 view = from.view * glm::vec4(point, 1.0f);
             view.z = -view.z; // a distance along the axis
             const float w = glm::dot(k.w, view);
@@ -205,7 +205,7 @@ TEST_CASE("reprojection: where another camera's matrices put a point, pixel by p
 }
 
 TEST_CASE("motion vectors of every convention become the same way in pixels") {
-    const Extent2D extent{300, 200};
+    const Extent2D pictureSize{300, 200};
     GBufferConventions top, bottom;
     bottom.firstRow = FirstRow::bottom;
     // To where the surface was: 30 columns right, 20 rows on.
@@ -213,7 +213,7 @@ TEST_CASE("motion vectors of every convention become the same way in pixels") {
     const auto check = [&](MotionUnit unit, glm::vec2 stored, const GBufferConventions& c) {
         for (auto [direction, sign] :
              {std::pair{MotionDirection::toPrevious, 1.0f}, {MotionDirection::fromPrevious, -1.0f}}) {
-            const glm::vec2 way = stored * sign * motionToPixels({unit, direction}, c, extent);
+            const glm::vec2 way = stored * sign * motionToPixels({unit, direction}, c, pictureSize);
             CHECK(way.x == doctest::Approx(expected.x));
             CHECK(way.y == doctest::Approx(expected.y));
         }

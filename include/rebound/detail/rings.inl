@@ -275,8 +275,6 @@ public:
         std::array<Part, 4> parts;
         if (patterns == 1) parts[0] = partOf(cell);
         else quarter(cell, parts);
-        int filled = 0;
-        for (const Part& p : parts) filled += p.weight > 0.0f ? 1 : 0;
         // A cell of one to three texels has empty quarters: its texels then serve several patterns.
         std::array<int, 4> chosen{}, uses{};
         for (int pattern = 0; pattern < patterns; ++pattern) {

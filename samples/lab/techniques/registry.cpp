@@ -27,7 +27,7 @@ Result<const Technique*> named(const std::string& what, const std::string& name)
 Result<> checkOptions(const Technique& technique, const Draft& draft, Spelling spelling) {
     for (const auto& [option, value] : draft)
         if (std::none_of(technique.options.begin(), technique.options.end(),
-                         [&](const Option& known) { return known.name == option; }))
+                         [&name = option](const Option& known) { return known.name == name; }))
             return invalidArgument(spelled(option, spelling) + " is given, which technique " +
                                    technique.name + " does not have");
     return {};
