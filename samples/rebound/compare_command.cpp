@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -21,7 +22,7 @@ namespace {
 struct CompareCommandOptions {
     std::string test, truth;
     std::optional<std::string> otherHalf; // then the truth is the mean of both
-    std::optional<std::string> mask, out;
+    std::optional<std::string> mask, surfaces, out;
     std::optional<double> exposure, largest, truthNoise;
     double pixelsPerDegree = metrics::CompareOptions().pixelsPerDegree;
     bool json = false;
@@ -52,6 +53,8 @@ Result<> checkOptions(const CompareCommandOptions& options) {
     if (options.truthNoise && options.otherHalf)
         return invalidArgument("--truth-noise is given with two halves of the truth, which tell its noise");
     if (options.mask && options.mask->empty()) return invalidArgument("--mask is empty; a file was expected");
+    if (options.surfaces && options.surfaces->empty())
+        return invalidArgument("--surfaces is empty; a folder was expected");
     if (options.out && !options.out->ends_with(".png"))
         return invalidArgument("--out is \"" + *options.out +
                                "\"; a file whose name ends in .png was expected");
@@ -70,6 +73,7 @@ struct Pictures {
     lab::Image test, truth;
     std::optional<std::array<lab::Image, 2>> halves;
     std::optional<lab::Image> mask;
+    lab::Image depth, normal; // empty without surfaces
     std::vector<std::string> notes;
 };
 
@@ -87,6 +91,17 @@ void takeHalves(Pictures& pictures, lab::Image other) {
         for (size_t i = 0; i < first.data.size(); ++i)
             pictures.truth.data[i] = 0.5f * (first.data[i] + other.data[i]);
     pictures.halves = {std::move(first), std::move(other)};
+}
+
+// Of a frame folder; what lies in no data window is no surface.
+Result<> readSurfaces(const std::filesystem::path& folder, Pictures& pictures) {
+    auto depth = lab::readExr(folder / "depth.exr", {lab::ExrContent::depth, 0.0f, &pictures.notes});
+    if (!depth) return depth.error();
+    auto normal = lab::readExr(folder / "normal.exr", {lab::ExrContent::normal, 0.0f, &pictures.notes});
+    if (!normal) return normal.error();
+    pictures.depth = *std::move(depth);
+    pictures.normal = withoutAlpha(*normal);
+    return {};
 }
 
 Result<Pictures> readPictures(const CompareCommandOptions& options) {
@@ -107,6 +122,8 @@ Result<Pictures> readPictures(const CompareCommandOptions& options) {
         if (!mask) return mask.error();
         pictures.mask = *std::move(mask);
     }
+    if (options.surfaces)
+        if (auto read = readSurfaces(*options.surfaces, pictures); !read) return read.error();
     return pictures;
 }
 
@@ -115,6 +132,7 @@ Error named(const CompareCommandOptions& options, const Error& error) {
     std::string files = options.test + " against " + options.truth;
     if (options.otherHalf) files += " and " + *options.otherHalf;
     if (options.mask) files += " with mask " + *options.mask;
+    if (options.surfaces) files += " on surfaces of " + *options.surfaces;
     return {error.code, files + ": " + error.message};
 }
 
@@ -129,6 +147,7 @@ Result<> compare(const CompareCommandOptions& options) {
     how.pixelsPerDegree = options.pixelsPerDegree;
     how.truthNoise = options.truthNoise;
     if (pictures->halves) how.halves = metrics::TruthHalves{&(*pictures->halves)[0], &(*pictures->halves)[1]};
+    if (options.surfaces) how.surfaces = metrics::Surfaces{&pictures->depth, &pictures->normal};
     const auto found = metrics::compareImages(pictures->test, pictures->truth, how);
     if (!found) return named(options, found.error());
     if (options.out) {
@@ -140,6 +159,7 @@ Result<> compare(const CompareCommandOptions& options) {
                                 options.truth,
                                 options.otherHalf,
                                 options.mask,
+                                options.surfaces,
                                 pictures->truth.extent(),
                                 pictures->truth.channels,
                                 *how.curve,
@@ -175,6 +195,10 @@ Command addCompareCommand(CLI::App& program) {
                     "an OpenEXR file of one channel; only pixels where it is above 0 count\n"
                     "(default: all)")
         ->option_text("FILE");
+    app->add_option("--surfaces", options->surfaces,
+                    "a folder with depth.exr and normal.exr of the view: measures how much pattern\n"
+                    "the difference has on smooth surfaces (default: it is not measured)")
+        ->option_text("DIR");
     app->add_option("--exposure", options->exposure,
                     "of both pictures for SSIM and FLIP, a factor on radiance (default: maps\n"
                     "the 90th percentile of the truth's luminance to 0.8)")
@@ -196,6 +220,7 @@ Command addCompareCommand(CLI::App& program) {
         "Examples:\n"
         "  rebound compare out/indirect.exr truth.exr\n"
         "  rebound compare out/indirect.exr truth/first_bounce_a.exr truth/first_bounce_b.exr\n"
+        "  rebound compare few/indirect.exr whole/indirect.exr --surfaces truth\n"
         "  rebound compare out/indirect.exr truth.exr --mask lit.exr --out errors.png --largest 0.1 --json");
     return [options] { return exitCodeOf(compare(*options)); };
 }

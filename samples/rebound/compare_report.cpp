@@ -25,6 +25,8 @@ constexpr Measure measures[] = {
      "of the relative RMSE, by the noise of the truth's halves"},
     {"truth noise", "truth_noise", &ErrorMetrics::truthNoise,
      "of the truth over its mean; taken out of both RMSE, not of the others"},
+    {"pattern", "pattern", &ErrorMetrics::pattern,
+     "standard deviation of the difference's 8x8 means on smooth surfaces, over the truth there"},
     {"relMSE", "rel_mse", &ErrorMetrics::relMse,
      "mean squared difference over the truth's square at each pixel"},
     {"SMAPE", "smape", &ErrorMetrics::smape, "mean difference over the mean of both at each pixel, 0 to 2"},
@@ -44,6 +46,9 @@ std::string leftOut(const Comparison& c) {
     if (c.metrics.notFinite > 0)
         text += " (" + std::to_string(c.metrics.notFiniteInTest) + " in " + c.test + ", " +
                 std::to_string(c.metrics.notFiniteInTruth) + " in " + c.truth + ")";
+    if (c.surfaces)
+        text +=
+            "; " + std::to_string(c.metrics.smoothBlocks) + " blocks on smooth surfaces of " + *c.surfaces;
     return text;
 }
 
@@ -69,6 +74,7 @@ Json compareJson(const Comparison& c) {
     json["truth"] = c.truth;
     json["truth_b"] = c.otherHalf ? Json(*c.otherHalf) : Json(nullptr);
     json["mask"] = c.mask ? Json(*c.mask) : Json(nullptr);
+    json["surfaces"] = c.surfaces ? Json(*c.surfaces) : Json(nullptr);
     json["resolution"] = {c.extent.width, c.extent.height};
     json["channels"] = c.channels;
     json["exposure"] = c.curve.exposure;
@@ -78,6 +84,7 @@ Json compareJson(const Comparison& c) {
     json["not_finite"] = c.metrics.notFinite;
     json["not_finite_in_test"] = c.metrics.notFiniteInTest;
     json["not_finite_in_truth"] = c.metrics.notFiniteInTruth;
+    json["smooth_blocks"] = c.surfaces ? Json(c.metrics.smoothBlocks) : Json(nullptr);
     for (const Measure& measure : measures) {
         const double value = c.metrics.*measure.value;
         json[measure.key] = std::isnan(value) ? Json(nullptr) : Json(value);

@@ -14,6 +14,7 @@ struct Comparison {
     std::string test, truth;              // files
     std::optional<std::string> otherHalf; // of the truth
     std::optional<std::string> mask;
+    std::optional<std::string> surfaces; // a folder
     Extent2D extent;
     int channels = 0;
     lab::ToneCurve curve;

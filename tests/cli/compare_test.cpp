@@ -144,6 +144,32 @@ TEST_CASE("a mask leaves pixels out") {
           std::string::npos);
 }
 
+TEST_CASE("surfaces tell how much pattern the difference has") {
+    const Pictures pictures;
+    lab::Image striped({20, 12}, 3, 2.0f); // two blocks fit: the left one 0.4 brighter
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 8; ++x)
+            for (int c = 0; c < 3; ++c) striped.at(x, y)[c] = 2.4f;
+    pictures.write("striped.exr", striped);
+    std::filesystem::create_directory(pictures / "frame");
+    lab::Image normal({20, 12}, 3);
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 20; ++x) normal.at(x, y)[1] = 1.0f;
+    pictures.write("frame/depth.exr", lab::Image({20, 12}, 1, 3.0f));
+    pictures.write("frame/normal.exr", normal);
+    const nlohmann::json json = pictures.compareToJson("striped.exr truth.exr --surfaces frame");
+    CHECK(json.at("pattern").get<double>() == Approx(0.2 / 2.0));
+    CHECK(json.at("smooth_blocks") == 2);
+    CHECK(json.at("surfaces") == "frame");
+    const Outcome table = pictures.compare("striped.exr truth.exr --surfaces frame");
+    CHECK(table.output.find("2 blocks on smooth surfaces of frame") != std::string::npos);
+    CHECK(pictures.compareToJson("striped.exr truth.exr").at("pattern").is_null());
+    checkRefused(pictures.compare("striped.exr truth.exr --surfaces missing"), {"missing/depth.exr"});
+    checkRefused(pictures.compare("striped.exr truth.exr --surfaces ''"), {"--surfaces", "folder"});
+    pictures.write("frame/depth.exr", lab::Image({20, 11}, 1, 3.0f));
+    checkRefused(pictures.compare("striped.exr truth.exr --surfaces frame"), {"frame", "depth is 20x11"});
+}
+
 TEST_CASE("relative measures of a black truth are absent, not a number that is none") {
     const Pictures pictures;
     pictures.write("black.exr", lab::Image({20, 12}, 3, 0.0f));

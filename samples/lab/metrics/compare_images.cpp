@@ -3,6 +3,7 @@
 #include "lab/metrics/displayed_pair.hpp"
 #include "lab/metrics/flip.hpp"
 #include "lab/metrics/metrics.hpp"
+#include "lab/metrics/pattern.hpp"
 #include "lab/metrics/pointwise_errors.hpp"
 #include "lab/metrics/ssim.hpp"
 
@@ -55,6 +56,7 @@ Result<ErrorMetrics> measure(const lab::Image& test, const lab::Image& truth, co
     metrics.notFiniteInTest = pixels->notFiniteInTest;
     metrics.notFiniteInTruth = pixels->notFiniteInTruth;
     measurePointwise(test, truth, options, *pixels, metrics);
+    if (auto done = measurePattern(test, truth, options, *pixels, metrics); !done) return done.error();
     const lab::ToneCurve curve = options.curve ? *options.curve : lab::automaticToneCurve(truth);
     const DisplayedPair shown = displayedPair(test, truth, *pixels, curve);
     metrics.ssim = meanOf(ssimMap(lumaOf(shown.test), lumaOf(shown.truth)), *pixels);

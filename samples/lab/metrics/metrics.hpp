@@ -18,6 +18,13 @@ struct TruthHalves {
     const lab::Image* b = nullptr;
 };
 
+// What the pictures show, of their size.
+struct Surfaces {
+    const lab::Image* depth =
+        nullptr; // 1 channel: along the viewing axis [m]; not above 0 or infinite: no surface
+    const lab::Image* normal = nullptr; // 3 channels, in any space and of any length
+};
+
 struct CompareOptions {
     const lab::Image* mask = nullptr; // 1 channel of the same size: only pixels where it is above 0 count
     // Of both pictures for SSIM and FLIP; without one, the automatic curve of the truth.
@@ -28,6 +35,7 @@ struct CompareOptions {
     // channels, and the truth is their mean.
     std::optional<TruthHalves> halves;
     std::optional<double> truthNoise; // its standard deviation over all values, over their mean, 0 to 10
+    std::optional<Surfaces> surfaces; // for the pattern; without them it is not measured
 };
 
 // Values that are not finite in either picture are left out with their pixel, and counted. Means are over all
@@ -49,6 +57,10 @@ struct ErrorMetrics {
     double relativeRmseError = std::numeric_limits<double>::quiet_NaN();
     // Root mean square of the truth's noise, over mean(r): by halves, or as given; else NaN.
     double truthNoise = std::numeric_limits<double>::quiet_NaN();
+    // With surfaces, else NaN: over blocks of 8x8 pixels that lie on one smooth surface, the standard deviation of the
+    // blocks' mean t - r, over the mean of r in them; halves take the truth's noise out. NaN unless that mean is above 0.
+    double pattern = std::numeric_limits<double>::quiet_NaN();
+    size_t smoothBlocks = 0;   // so many blocks
     double relMse = 0.0;       // mean((t - r)^2 / (r^2 + (0.01 mean(r))^2)); likewise
     double smape = 0.0;        // mean(2 |t - r| / (|t| + |r|)), 0 where both are 0: symmetric MAPE, 0 to 2
     double bias = 0.0;         // mean(t - r)
@@ -59,7 +71,7 @@ struct ErrorMetrics {
 };
 
 // Both pictures have the same size and number of channels, 1 or 3. Fails where they have not, where no pixel
-// counts, and for an exposure or pixels per degree out of range.
+// counts, where surfaces do not fit or no block is smooth, and for an exposure or pixels per degree out of range.
 Result<ErrorMetrics> compareImages(const lab::Image& test, const lab::Image& truth,
                                    const CompareOptions& = {});
 
