@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <cstdio>
+
 namespace rebound::cli {
 namespace {
 
@@ -51,6 +54,28 @@ TEST_CASE("plan prints passes and memory for the size and settings it is given")
     CHECK(outcome.output.find("gather level 3") == std::string::npos);
     CHECK(outcome.output.find("pass smooth") != std::string::npos);
     CHECK(run("plan --smooth off", folder.path()).output.find("pass smooth") == std::string::npos);
+}
+
+TEST_CASE("plan --repeats prints how long planning takes, and nothing else changes") {
+    const lab::TemporaryFolder folder;
+    const std::string plan = run("plan --size 640x360", folder.path()).output;
+    CHECK(plan.find("planning takes") == std::string::npos);
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run("plan --size 640x360 --repeats 7", folder.path());
+    const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+    REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.errors);
+    REQUIRE(outcome.output.starts_with(plan));
+    double median = 0, least = 0, most = 0;
+    int repeats = 0;
+    REQUIRE(std::sscanf(outcome.output.c_str() + plan.size(),
+                        "planning takes %lf ms, the median of %d times, from %lf to %lf ms\n", &median,
+                        &repeats, &least, &most) == 4);
+    CHECK(repeats == 7);
+    CHECK(least > 0.0);
+    CHECK(least <= median);
+    CHECK(median <= most);
+    CHECK(4 * median <= whole.count()); // four of seven take at least the median
+    checkRefused(run("plan --repeats 0", folder.path()), {"--repeats", "0"});
 }
 
 TEST_CASE("help and version are answers, not failures") {
