@@ -2,6 +2,7 @@
 // Motion of what pixels show, to the frame before.
 #include "frame_test_scene.hpp"
 
+#include "gltf_draft.hpp"
 #include "lab/rays/camera_rays.hpp"
 #include "lab/rays/embree_scene.hpp"
 #include "lab/scenes/camera_matrices.hpp"
@@ -172,4 +173,98 @@ TEST_CASE("a sequence's frames are those of its scene at their times, each with 
     REQUIRE(!missing);
     for (const char* text : {"long block", "short block"})
         CHECK(missing.error().message.find(text) != std::string::npos);
+}
+
+namespace {
+
+// Two boards below one node, "swing", and one beside it.
+test::GltfDraft swingDraft() {
+    test::GltfDraft draft;
+    draft.addAccessor<float>("VEC3", 4, {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
+    draft.addAccessor<uint16_t>("SCALAR", 6, {0, 1, 2, 0, 2, 3});
+    for (const char* name : {"left board", "right board", "wall"})
+        draft.add("meshes",
+                  {{"name", name}, {"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}});
+    draft.root["nodes"] = {{{"name", "swing"}, {"translation", {0, 0, -5}}, {"children", {1, 2}}},
+                           {{"mesh", 0}, {"translation", {-1.5, 0, 0}}},
+                           {{"mesh", 1}, {"translation", {1.5, 0, 0}}},
+                           {{"mesh", 2}, {"translation", {0, 0, -9}}, {"scale", {20, 20, 1}}}};
+    draft.add("scenes", {{"nodes", {0, 3}}});
+    return draft;
+}
+
+SequenceOptions swingSequence(const std::filesystem::path& file) {
+    SequenceOptions options;
+    options.scene = file.string();
+    options.framesPerSecond = 10.0;
+    options.path = *parsePath(R"({"interpolation": "linear",
+        "objects": {"swing": {"keys": [{"time_s": 0}, {"time_s": 1, "translation": [0.5, -1, 0]}]}}})",
+                              "path");
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("a node of a glTF file moves by its name, with all that is below it and nothing else") {
+    TemporaryFolder folder;
+    writeText(folder / "view.json", R"({"environment": {"type": "constant", "radiance": [1, 1, 1]},
+        "cameras": [{"name": "front", "position": [0, 0, 0], "target": [0, 0, -1], "vfov_degrees": 57.29578}]})");
+    auto sequence = Sequence::open(swingSequence(swingDraft().save(folder)));
+    REQUIRE_MESSAGE(sequence, (sequence ? "" : sequence.error().message));
+    const FrameOptions frameOptions{.extent = size, .lightSamples = 1, .threads = 1};
+    REQUIRE(sequence->next(frameOptions));
+    const auto second = sequence->next(frameOptions);
+    REQUIRE(second);
+    int onSwing = 0, onWall = 0;
+    for (size_t i = 0; i < second->depth.data.size(); ++i) {
+        const float depth = second->depth.data[i];
+        const bool swings = depth == doctest::Approx(5.0f);
+        REQUIRE((swings || depth == doctest::Approx(9.0f)));
+        (swings ? onSwing : onWall)++;
+        // 0.05 m to the right and 0.1 m down since the frame before.
+        CHECK(double(second->motion.data[2 * i]) ==
+              doctest::Approx(swings ? -0.05 * pixelsPerMetre(5.0) : 0.0).epsilon(1e-4));
+        CHECK(double(second->motion.data[2 * i + 1]) ==
+              doctest::Approx(swings ? -0.1 * pixelsPerMetre(5.0) : 0.0).epsilon(1e-4));
+    }
+    CHECK(onSwing > 50);
+    CHECK(onWall > 50);
+}
+
+TEST_CASE("a sequence reads its files once") {
+    TemporaryFolder folder;
+    writeText(folder / "view.json", R"({"environment": {"type": "constant", "radiance": [1, 1, 1]},
+        "cameras": [{"name": "front", "position": [0, 0, 0], "target": [0, 0, -1], "vfov_degrees": 60}]})");
+    test::GltfDraft draft = swingDraft();
+    // A picture, by which light would change if it were lost.
+    draft.add("images", {{"uri", "red.png"}});
+    draft.add("textures", {{"source", 0}});
+    draft.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    const int coordinates = draft.addAccessor<float>("VEC2", 4, {0, 0, 1, 0, 1, 1, 0, 1});
+    for (auto& mesh : draft.root["meshes"]) {
+        mesh["primitives"][0]["material"] = 0;
+        mesh["primitives"][0]["attributes"]["TEXCOORD_0"] = coordinates;
+    }
+    const test::Bytes png = test::makePng(1, 1, 8, {255, 0, 0, 255});
+    test::writeBytes(folder / "red.png", png.data(), png.size());
+    const auto file = draft.save(folder);
+    const SequenceOptions options = swingSequence(file);
+    const glm::mat4 there = placeAt(options.path, options.path.objects[0], 0.2);
+    const auto expected = loadScene(file.string(), {}, {{}, {}, {{"swing", there}}});
+    REQUIRE_MESSAGE(expected, (expected ? "" : expected.error().message));
+    auto sequence = Sequence::open(options);
+    REQUIRE(sequence);
+    for (const char* name : {"scene.gltf", "scene.bin", "red.png", "view.json"})
+        REQUIRE(std::filesystem::remove(folder / name));
+    const FrameOptions frameOptions{.extent = size, .lightSamples = 1, .threads = 1};
+    REQUIRE(sequence->next(frameOptions));
+    REQUIRE(sequence->next(frameOptions));
+    const auto third = sequence->next(frameOptions);
+    REQUIRE_MESSAGE(third, (third ? "" : third.error().message));
+    const Frame whole = rendered(*expected, third->camera, frameOptions);
+    CHECK(third->depth.data == whole.depth.data);
+    CHECK(third->albedo.data == whole.albedo.data);
+    CHECK(third->albedo.at(16, 9)[0] == 1.0f);
+    CHECK(third->albedo.at(16, 9)[1] == 0.0f);
+    CHECK(third->direct.data == whole.direct.data);
 }

@@ -34,7 +34,10 @@ Json goodView() {
 Result<> applyView(const std::string& text, Scene& scene) {
     TemporaryFolder folder;
     writeText(folder / "a_view.json", text);
-    return applyViewFile(folder / "a_view.json", scene);
+    const Result<ViewFile> view = readViewFile(folder / "a_view.json");
+    if (!view) return view.error();
+    applyViewFile(*view, scene);
+    return {};
 }
 
 TEST_CASE("a view file's lights, camera, environment and animation") {
@@ -92,20 +95,20 @@ TEST_CASE("what a view file does not hold stays the scene's, and what no view fi
 TEST_CASE("the moment that a view file asks for") {
     TemporaryFolder folder;
     writeText(folder / "view.json", goodView().dump());
-    const Result<GltfOptions> options = readViewAnimation(folder / "view.json");
-    REQUIRE(options);
-    CHECK(options->animate);
-    CHECK(options->animation == "Walk");
-    CHECK(options->time == 0.35f);
+    const Result<ViewFile> view = readViewFile(folder / "view.json");
+    REQUIRE(view);
+    CHECK(view->animation.animate);
+    CHECK(view->animation.animation == "Walk");
+    CHECK(view->animation.time == 0.35f);
     Json still = goodView();
     still.erase("animation");
     writeText(folder / "view.json", still.dump());
-    CHECK(!readViewAnimation(folder / "view.json")->animate);
+    CHECK(!readViewFile(folder / "view.json")->animation.animate);
     for (const char* animation :
          {"3", "{}", R"({"name": "a"})", R"({"name": 1, "time_s": 0})", R"({"name": "a", "time_s": "x"})"}) {
         CAPTURE(animation);
         writeText(folder / "view.json", std::string("{\"animation\": ") + animation + "}");
-        CHECK(!readViewAnimation(folder / "view.json"));
+        CHECK(!readViewFile(folder / "view.json"));
     }
 }
 
@@ -209,9 +212,8 @@ TEST_CASE("what is no view file is refused") {
     REQUIRE(!deep);
     CHECK(deep.error().message.find("nested deeper than 64") != std::string::npos);
     TemporaryFolder folder;
-    CHECK(applyViewFile(folder / "none.json", scene).error().code == ErrorCode::notFound);
-    CHECK(!applyViewFile(folder / "", scene));
-    CHECK(!readViewAnimation(folder / "none.json"));
+    CHECK(readViewFile(folder / "none.json").error().code == ErrorCode::notFound);
+    CHECK(!readViewFile(folder / ""));
 }
 
 } // namespace

@@ -134,4 +134,15 @@ GltfMaterial readMaterial(const tinygltf::Model& model, int index, GltfTextures&
     return result;
 }
 
+GltfMaterials::Used GltfMaterials::use(int index) {
+    auto found = known.find(index);
+    if (found == known.end()) {
+        GltfMaterial read = readMaterial(model, index, pictures, notes);
+        materials.push_back(read.material);
+        const int number = static_cast<int>(materials.size()) - 1;
+        found = known.emplace(index, std::make_pair(number, std::move(read))).first;
+    }
+    return {found->second.first, found->second.second};
+}
+
 } // namespace rebound::lab

@@ -9,7 +9,10 @@
 #include <glm/glm.hpp>
 #include <tiny_gltf.h>
 
-#include <string>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace rebound::lab {
 
@@ -31,5 +34,31 @@ struct GltfMaterial {
 // light passes through nothing that is half there. Metallic and roughness are the factors, without their texture. Notes
 // what is left out. Throws InputError.
 GltfMaterial readMaterial(const tinygltf::Model&, int material, GltfTextures&, GltfNotes&);
+
+// A file's materials, read as meshes ask for them, each once.
+class GltfMaterials {
+public:
+    // The model and the notes have to outlive it.
+    GltfMaterials(const tinygltf::Model& gltf, const std::filesystem::path& file, GltfNotes& gltfNotes)
+        : model(gltf), notes(gltfNotes), pictures(gltf, file, gltfNotes) {}
+
+    struct Used {
+        int number = 0; // index into list()
+        const GltfMaterial& material;
+    };
+    // By the file's index, or none. Throws InputError.
+    Used use(int material);
+
+    const std::vector<Material>& list() const { return materials; }
+    const std::vector<Texture>& textures() const { return pictures.list(); }
+    std::vector<Texture> takeTextures() { return pictures.take(); }
+
+private:
+    const tinygltf::Model& model;
+    GltfNotes& notes;
+    GltfTextures pictures;
+    std::vector<Material> materials;
+    std::map<int, std::pair<int, GltfMaterial>> known; // by the file's index
+};
 
 } // namespace rebound::lab

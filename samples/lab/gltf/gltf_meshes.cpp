@@ -7,7 +7,6 @@
 #include "lab/gltf/gltf_skinning.hpp"
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -126,9 +125,9 @@ private:
 class GeometryReader {
 public:
     GeometryReader(const tinygltf::Model& gltf, const std::vector<NodePose>& nodePoses,
-                   const std::vector<glm::dmat4>& nodeToWorld, GltfTextures& gltfTextures,
+                   const std::vector<glm::dmat4>& nodeToWorld, GltfMaterials& gltfMaterials,
                    GltfNotes& gltfNotes)
-        : model(gltf), poses(nodePoses), world(nodeToWorld), textures(gltfTextures), notes(gltfNotes) {}
+        : model(gltf), poses(nodePoses), world(nodeToWorld), materials(gltfMaterials), notes(gltfNotes) {}
 
     void addNodes(const std::vector<int>& nodes) {
         GeometrySize size;
@@ -142,7 +141,7 @@ public:
                          });
     }
 
-    GltfGeometry take() { return std::move(geometry); }
+    std::vector<Mesh> take() { return std::move(meshes); }
 
 private:
     void forEachPrimitive(const std::vector<int>& nodes, const auto& visit) const {
@@ -169,7 +168,7 @@ private:
     }
 
     void addPrimitive(size_t node, const tinygltf::Mesh& source, const tinygltf::Primitive& primitive) {
-        const auto& [number, material] = materialOf(primitive.material);
+        const auto& [number, material] = materials.use(primitive.material);
         const std::vector<double>& weights =
             poses[node].morphWeights.empty() ? source.weights : poses[node].morphWeights;
         const int skin = model.nodes[node].skin;
@@ -180,34 +179,23 @@ private:
                               : std::vector<glm::dmat4>{world[node]}));
         mesh.name = source.name;
         mesh.material = number;
-        geometry.meshes.push_back(std::move(mesh));
-    }
-
-    // With its index into the geometry's materials.
-    const std::pair<int, GltfMaterial>& materialOf(int index) {
-        const auto known = materials.find(index);
-        if (known != materials.end()) return known->second;
-        GltfMaterial read = readMaterial(model, index, textures, notes);
-        geometry.materials.push_back(read.material);
-        const int number = static_cast<int>(geometry.materials.size()) - 1;
-        return materials.emplace(index, std::make_pair(number, std::move(read))).first->second;
+        meshes.push_back(std::move(mesh));
     }
 
     const tinygltf::Model& model;
     const std::vector<NodePose>& poses;
     const std::vector<glm::dmat4>& world;
-    GltfTextures& textures;
+    GltfMaterials& materials;
     GltfNotes& notes;
-    GltfGeometry geometry;
-    std::map<int, std::pair<int, GltfMaterial>> materials; // by the file's index
+    std::vector<Mesh> meshes;
 };
 
 } // namespace
 
-GltfGeometry readGeometry(const tinygltf::Model& model, const std::vector<int>& nodes,
-                          const std::vector<NodePose>& poses, const std::vector<glm::dmat4>& world,
-                          GltfTextures& textures, GltfNotes& notes) {
-    GeometryReader reader(model, poses, world, textures, notes);
+std::vector<Mesh> readMeshes(const tinygltf::Model& model, const std::vector<int>& nodes,
+                             const std::vector<NodePose>& poses, const std::vector<glm::dmat4>& world,
+                             GltfMaterials& materials, GltfNotes& notes) {
+    GeometryReader reader(model, poses, world, materials, notes);
     reader.addNodes(nodes);
     return reader.take();
 }

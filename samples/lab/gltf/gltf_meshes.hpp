@@ -15,14 +15,10 @@ namespace rebound::lab {
 inline constexpr size_t largestVertexCount = size_t(1) << 25;
 inline constexpr size_t largestTriangleCount = size_t(1) << 25;
 
-// The triangles of the given nodes' meshes, one Mesh a primitive, with the materials that they use. Morph
-// targets and skins are applied; primitives that are no triangles are noted. A vertex without skin weights follows the skin's first joint. Throws
-// InputError.
-struct GltfGeometry {
-    std::vector<Mesh> meshes;
-    std::vector<Material> materials;
-};
-GltfGeometry readGeometry(const tinygltf::Model&, const std::vector<int>& nodes, const std::vector<NodePose>&,
-                          const std::vector<glm::dmat4>& world, GltfTextures&, GltfNotes&);
+// The triangles of the given nodes' meshes, one Mesh a primitive. Morph targets and skins are applied; primitives that are
+// no triangles are noted. A vertex without skin weights follows the skin's first joint. Throws InputError.
+std::vector<Mesh> readMeshes(const tinygltf::Model&, const std::vector<int>& nodes,
+                             const std::vector<NodePose>&, const std::vector<glm::dmat4>& world,
+                             GltfMaterials&, GltfNotes&);
 
 } // namespace rebound::lab

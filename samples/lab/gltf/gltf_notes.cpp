@@ -36,6 +36,15 @@ void GltfNotes::add(Kind kind, const std::string& subject) {
     if (occurrences.count++ == 0) occurrences.first = subject;
 }
 
+void GltfNotes::add(const GltfNotes& others) {
+    for (const auto& [kind, more] : others.kinds) {
+        Occurrences& occurrences = kinds[kind];
+        if (occurrences.count == 0) occurrences.first = more.first;
+        occurrences.count += more.count;
+    }
+    sentences.insert(sentences.end(), others.sentences.begin(), others.sentences.end());
+}
+
 std::vector<std::string> GltfNotes::take(const std::string& file) const {
     const std::string prefix = "'" + file + "': ";
     std::vector<std::string> notes;

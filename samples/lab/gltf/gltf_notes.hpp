@@ -27,6 +27,8 @@ public:
 
     void add(std::string sentence) { sentences.push_back(std::move(sentence)); }
 
+    void add(const GltfNotes&);
+
     // All sentences, each with the file's name in front.
     std::vector<std::string> take(const std::string& file) const;
 

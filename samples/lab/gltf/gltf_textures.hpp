@@ -25,10 +25,11 @@ public:
     GltfTextures(const tinygltf::Model& gltf, std::filesystem::path gltfFile, GltfNotes& gltfNotes)
         : model(gltf), file(std::move(gltfFile)), notes(gltfNotes) {}
 
-    // The index into take()'s list of a texture of the file, decoded on its first use. PNG and JPEG; 16-bit
+    // The index into list() of a texture of the file, decoded on its first use. PNG and JPEG; 16-bit
     // channels are cut to 8. Filters other than bilinear are noted. Throws InputError.
     int use(int gltfTexture);
 
+    const std::vector<Texture>& list() const { return textures; }
     std::vector<Texture> take() { return std::move(textures); }
 
 private:

@@ -73,7 +73,9 @@ Result<Taken> readMeta(const fs::path& file) {
 Result<Taken> readTaken(const fs::path& folder, const fs::path& viewFile, const std::string& name) {
     if (!viewFile.empty()) {
         Scene onlyCameras;
-        if (auto applied = applyViewFile(viewFile, onlyCameras); !applied) return applied.error();
+        const auto view = readViewFile(viewFile);
+        if (!view) return view.error();
+        applyViewFile(*view, onlyCameras);
         if (onlyCameras.cameras.empty())
             return Error{ErrorCode::notFound, std::string("'").append(viewFile.string()) +
                                                   "': it has no cameras; expected the one of the frame"};

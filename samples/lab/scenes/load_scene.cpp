@@ -2,6 +2,7 @@
 #include "lab/scenes/scene_files.hpp"
 
 #include "lab/files/input_error.hpp"
+#include "lab/gltf/gltf_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,24 +103,6 @@ void moveMeshes(Scene& scene, const std::map<std::string, glm::mat4>& moved) {
     }
 }
 
-Scene readScene(const std::string& name, const std::filesystem::path& viewFile, const SceneMoment& moment) {
-    if (name.starts_with(builtinPrefix)) {
-        if (moment.animation || moment.time)
-            refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
-                   ErrorCode::invalidArgument);
-        Scene scene = makeBuiltin(name.substr(builtinPrefix.size()));
-        moveMeshes(scene, moment.moved);
-        if (!viewFile.empty()) orRefuse(applyViewFile(viewFile, scene));
-        return scene;
-    }
-    const std::filesystem::path file(name);
-    const std::filesystem::path view = viewFile.empty() ? viewFileBeside(file) : viewFile;
-    const GltfOptions stored = view.empty() ? GltfOptions{} : orRefuse(readViewAnimation(view));
-    Scene scene = orRefuse(loadGltf(file, momentOf(stored, moment)));
-    if (!view.empty()) orRefuse(applyViewFile(view, scene));
-    return scene;
-}
-
 } // namespace
 
 const std::vector<std::string>& builtinScenes() {
@@ -139,25 +122,98 @@ std::string builtinSceneList() {
     return list;
 }
 
-Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile,
-                        const SceneMoment& moment) {
-    Scene scene;
+struct MovingScene::Source {
+    std::string name; // as it was given
+    std::optional<ViewFile> view;
+    std::optional<GltfScene> gltf;
+    Scene builtin; // without gltf
+
+    Scene at(const SceneMoment& moment, bool isLast) {
+        Scene scene = gltf ? ofGltf(moment, isLast) : ofBuiltin(moment, isLast);
+        if (view) applyViewFile(*view, scene);
+        if (scene.cameras.empty() && scene.triangleCount() > 0) scene.cameras.push_back(cameraOnAll(scene));
+        return scene;
+    }
+
+private:
+    Scene ofGltf(const SceneMoment& moment, bool isLast) {
+        const GltfOptions options = momentOf(view ? view->animation : GltfOptions{}, moment);
+        return orRefuse(isLast ? std::move(*gltf).at(options) : gltf->at(options));
+    }
+
+    Scene ofBuiltin(const SceneMoment& moment, bool isLast) {
+        if (moment.animation || moment.time)
+            refuse("'" + name + "' does not move; a glTF file was expected with a time or an animation",
+                   ErrorCode::invalidArgument);
+        Scene scene = isLast ? std::move(builtin) : builtin;
+        moveMeshes(scene, moment.moved);
+        return scene;
+    }
+};
+
+MovingScene::MovingScene(std::unique_ptr<Source> s) : source(std::move(s)) {}
+MovingScene::MovingScene(MovingScene&&) noexcept = default;
+MovingScene& MovingScene::operator=(MovingScene&&) noexcept = default;
+MovingScene::~MovingScene() = default;
+
+Result<MovingScene> MovingScene::open(const std::string& name, const std::filesystem::path& viewFile) {
+    auto source = std::make_unique<Source>();
+    source->name = name;
     try {
-        scene = readScene(fileOrBuiltin, viewFile, moment);
+        if (name.starts_with(builtinPrefix)) {
+            source->builtin = makeBuiltin(name.substr(builtinPrefix.size()));
+            if (!viewFile.empty()) source->view = orRefuse(readViewFile(viewFile));
+        } else {
+            const std::filesystem::path view = viewFile.empty() ? viewFileBeside(name) : viewFile;
+            if (!view.empty()) source->view = orRefuse(readViewFile(view));
+            source->gltf = orRefuse(GltfScene::open(name));
+        }
     } catch (const InputError& failure) {
         return failure.error();
     }
-    const std::string subject = "'" + fileOrBuiltin + "': ";
-    if (scene.cameras.empty() && scene.triangleCount() > 0) scene.cameras.push_back(cameraOnAll(scene));
-    if (const Result<> valid = validate(scene); !valid)
+    return MovingScene(std::move(source));
+}
+
+namespace {
+
+Result<Scene> checked(const std::string& name, Result<Scene> scene) {
+    if (!scene) return scene;
+    const std::string subject = "'" + name + "': ";
+    if (const Result<> valid = validate(*scene); !valid)
         return Error{valid.error().code, subject + valid.error().message};
-    if (!isLit(scene))
+    if (!isLit(*scene))
         return Error{ErrorCode::invalidData, subject + "no light: the scene has neither lights nor an "
                                                        "environment nor emissive surfaces; a view file "
                                                        "gives it some, such as {\"environment\": {\"type\": "
                                                        "\"constant\", \"radiance\": [1, 1, 1]}}, "
                                                        "as view.json beside the scene or by --view FILE"};
     return scene;
+}
+
+template <class Make>
+Result<Scene> guarded(Make make) {
+    try {
+        return make();
+    } catch (const InputError& failure) {
+        return failure.error();
+    }
+}
+
+} // namespace
+
+Result<Scene> MovingScene::at(const SceneMoment& moment) & {
+    return checked(source->name, guarded([&] { return source->at(moment, false); }));
+}
+
+Result<Scene> MovingScene::at(const SceneMoment& moment) && {
+    return checked(source->name, guarded([&] { return source->at(moment, true); }));
+}
+
+Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile,
+                        const SceneMoment& moment) {
+    auto scene = MovingScene::open(fileOrBuiltin, viewFile);
+    if (!scene) return scene.error();
+    return std::move(*scene).at(moment);
 }
 
 } // namespace rebound::lab

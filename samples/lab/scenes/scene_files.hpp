@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,13 +27,19 @@ struct GltfOptions {
 // Photometric units of KHR_lights_punctual (lux, candela) are taken as radiometric ones.
 Result<Scene> loadGltf(const std::filesystem::path&, const GltfOptions& = {});
 
-// Applies a view file (cameras, lights, environment, emissive_materials; a JSON object whose key "units" says the units)
-// to a scene that it describes: what it holds replaces the scene's, what it does not hold stays. Keys that it does not
-// know are noted.
-Result<> applyViewFile(const std::filesystem::path&, Scene&);
+// A view file: a JSON object whose key "units" says the units. What it does not hold is absent.
+struct ViewFile {
+    std::optional<std::vector<CameraView>> cameras;
+    std::optional<std::vector<Light>> lights;
+    std::optional<glm::vec3> environment;
+    std::optional<bool> emissiveMaterialsLight;
+    GltfOptions animation;          // the moment to load; at rest if the file does not say
+    std::vector<std::string> notes; // keys that it does not know: sentences
+};
+Result<ViewFile> readViewFile(const std::filesystem::path&);
 
-// What a view file says about the moment to load; read before the scene it belongs to.
-Result<GltfOptions> readViewAnimation(const std::filesystem::path&);
+// What the view file holds replaces the scene's, what it does not hold stays; its notes are added to the scene's.
+void applyViewFile(const ViewFile&, Scene&);
 
 // The moment of a moving scene; what is absent is the view file's, or else the first clip at 0 s. With neither of them,
 // and no animation in the view file, the scene rests.
@@ -48,6 +55,26 @@ struct SceneMoment {
 // is validated.
 Result<Scene> loadScene(const std::string& fileOrBuiltin, const std::filesystem::path& viewFile = {},
                         const SceneMoment& = {});
+
+// The same for many moments: files are read and pictures decoded once.
+class MovingScene {
+public:
+    static Result<MovingScene> open(const std::string& fileOrBuiltin,
+                                    const std::filesystem::path& viewFile = {});
+    MovingScene(MovingScene&&) noexcept;
+    MovingScene& operator=(MovingScene&&) noexcept;
+    ~MovingScene();
+
+    // What loadScene() gives for that moment.
+    Result<Scene> at(const SceneMoment&) &;
+    // The last one, which takes the textures along.
+    Result<Scene> at(const SceneMoment&) &&;
+
+private:
+    struct Source;
+    explicit MovingScene(std::unique_ptr<Source>);
+    std::unique_ptr<Source> source;
+};
 
 Scene makeCornellBox();
 Scene makeAtrium();

@@ -186,26 +186,26 @@ GltfOptions readAnimation(const Json& root) {
 
 } // namespace
 
-Result<> applyViewFile(const std::filesystem::path& file, Scene& scene) {
-    const auto read = [&] {
+Result<ViewFile> readViewFile(const std::filesystem::path& file) {
+    return guardInput(file, [&] {
         const Json root = readJson(file);
-        std::optional<std::vector<CameraView>> cameras = readList(root, "cameras", readCamera);
-        std::optional<std::vector<Light>> lights = readList(root, "lights", readLight);
-        const std::optional<glm::vec3> environment = readEnvironment(root);
-        const std::optional<bool> emissive = readEmissiveFlag(root);
-        // Only now, so that a failure leaves the scene as it was.
-        if (cameras) scene.cameras = *std::move(cameras);
-        if (lights) scene.lights = *std::move(lights);
-        scene.environment = environment.value_or(scene.environment);
-        scene.emissiveMaterialsLight = emissive.value_or(scene.emissiveMaterialsLight);
-        noteUnknownKeys(root, file, scene.notes);
-        return std::monostate{};
-    };
-    return guardInput(file, read);
+        ViewFile view;
+        view.cameras = readList(root, "cameras", readCamera);
+        view.lights = readList(root, "lights", readLight);
+        view.environment = readEnvironment(root);
+        view.emissiveMaterialsLight = readEmissiveFlag(root);
+        view.animation = readAnimation(root);
+        noteUnknownKeys(root, file, view.notes);
+        return view;
+    });
 }
 
-Result<GltfOptions> readViewAnimation(const std::filesystem::path& file) {
-    return guardInput(file, [&] { return readAnimation(readJson(file)); });
+void applyViewFile(const ViewFile& view, Scene& scene) {
+    if (view.cameras) scene.cameras = *view.cameras;
+    if (view.lights) scene.lights = *view.lights;
+    scene.environment = view.environment.value_or(scene.environment);
+    scene.emissiveMaterialsLight = view.emissiveMaterialsLight.value_or(scene.emissiveMaterialsLight);
+    scene.notes.insert(scene.notes.end(), view.notes.begin(), view.notes.end());
 }
 
 } // namespace rebound::lab

@@ -30,9 +30,9 @@ Result<> Sequence::moveTo(double time) {
     // A camera alone leaves the scene as it is.
     const bool isStill = moment.moved.empty() && !moment.animation && !moment.time;
     if (scene.meshes.empty() || !isStill) {
-        auto loaded = loadScene(options.scene, options.viewFile, moment);
-        if (!loaded) return loaded.error();
-        scene = *std::move(loaded);
+        auto moved = source.at(moment);
+        if (!moved) return moved.error();
+        scene = *std::move(moved);
     }
     auto found = findCamera(scene, options.camera);
     if (!found) return found.error();
@@ -40,9 +40,13 @@ Result<> Sequence::moveTo(double time) {
     return validate(camera);
 }
 
+Sequence::Sequence(MovingScene moving, const SequenceOptions& sequenceOptions)
+    : source(std::move(moving)), options(sequenceOptions) {}
+
 Result<Sequence> Sequence::open(const SequenceOptions& options) {
-    Sequence sequence;
-    sequence.options = options;
+    auto source = MovingScene::open(options.scene, options.viewFile);
+    if (!source) return source.error();
+    Sequence sequence(*std::move(source), options);
     if (auto moved = sequence.moveTo(0.0); !moved) return moved.error();
     return sequence;
 }

@@ -34,9 +34,11 @@ public:
     const std::vector<std::string>& notes() const { return scene.notes; }
 
 private:
+    Sequence(MovingScene scene, const SequenceOptions&);
     Result<> moveTo(double time);
     SceneMoment momentAt(double time) const;
 
+    MovingScene source;
     SequenceOptions options;
     Scene scene;
     CameraView camera;
