@@ -223,6 +223,23 @@ TEST_CASE("sparse accessors replace elements of a view, or of zeros") {
     }
 }
 
+TEST_CASE("indices without a buffer view are zeros, but for what a sparse part replaces") {
+    GltfDraft draft = triangleDraft();
+    const int places = draft.addView<uint8_t>({1, 2});
+    const int values = draft.addView<uint16_t>({2, 1});
+    Json& indices = draft.root["accessors"][1];
+    indices.erase("bufferView");
+    indices["sparse"] = {{"count", 2},
+                         {"indices", {{"bufferView", places}, {"componentType", 5121}}},
+                         {"values", {{"bufferView", values}}}};
+    const Mesh mesh = loadMesh(draft);
+    // 0, 2, 1 of (0 0 0), (1 0 0), (0 1 0), which has no normals and so faces as it is wound.
+    CHECK(mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+    CHECK(mesh.normals.at(0) == glm::vec3(0, 0, -1));
+    indices.erase("sparse");
+    CHECK(loadMesh(draft).positions == std::vector<glm::vec3>(3, glm::vec3(0.0f)));
+}
+
 TEST_CASE("morph targets are added by their weights") {
     GltfDraft draft = triangleDraft();
     const int target = draft.addAccessor<float>("VEC3", 3, {0, 0, 1, 0, 0, 2, 0, 0, 4});

@@ -101,6 +101,30 @@ bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 // Images that are data URIs, by their index.
 using EmbeddedImages = std::map<size_t, std::vector<uint8_t>>;
 
+struct UnbackedIndices {
+    size_t mesh = 0, primitive = 0;
+    int accessor = 0;
+};
+
+// tinygltf 2.7 wants a buffer view for each accessor of indices. Without one they are zeros, but for a sparse part: such
+// primitives are handed over without, and get their accessor back.
+std::vector<UnbackedIndices> setAsideUnbackedIndices(nlohmann::json& root) {
+    std::vector<UnbackedIndices> aside;
+    if (!root.contains("meshes")) return aside;
+    for (size_t mesh = 0; mesh < root["meshes"].size(); ++mesh) {
+        nlohmann::json& primitives = root["meshes"][mesh]["primitives"];
+        for (size_t i = 0; i < primitives.size(); ++i) {
+            const auto indices = primitives[i].find("indices");
+            if (indices == primitives[i].end()) continue;
+            const int accessor = indices->get<int>();
+            if (root["accessors"][size_t(accessor)].contains("bufferView")) continue;
+            aside.push_back({mesh, i, accessor});
+            primitives[i].erase(indices);
+        }
+    }
+    return aside;
+}
+
 // Puts into the JSON what tinygltf 2.7 expects of it and glTF 2.0 does not: a file for every buffer, which readBuffer()
 // then gives; data URIs of no other kind than it knows; and -1, its value for none, for optional indices that it takes
 // for required.
@@ -171,11 +195,14 @@ tinygltf::Model readGltfFile(const std::filesystem::path& file, GltfNotes& notes
     nlohmann::json root = parseJsonObject(contents.json, "glTF");
     BufferFiles files{file, contents.binary, checkGltfStructure(root, contents.binary.size(), notes), 0};
     EmbeddedImages images = adaptToTinygltf(root);
+    const std::vector<UnbackedIndices> aside = setAsideUnbackedIndices(root);
     tinygltf::Model model = parseModel(root, files);
     for (auto& [index, image] : images) {
         model.images.at(index).image = std::move(image);
         model.images.at(index).uri.clear();
     }
+    for (const UnbackedIndices& indices : aside)
+        model.meshes.at(indices.mesh).primitives.at(indices.primitive).indices = indices.accessor;
     return model;
 }
 
