@@ -13,6 +13,7 @@ Result<std::vector<InputFinding>> examineFrame(const lab::Frame& frame, int thre
     InputCheckSettings settings;
     settings.resolution = frame.depth.extent();
     settings.emission = !frame.emission.empty() && !frame.emissionIsDirectLight; // it is in the radiance
+    settings.motion = !frame.motion.empty();
     settings.conventions.projection =
         frame.camera.orthographic ? Projection::orthographic : Projection::perspective;
     const auto plan = planInputCheck(settings);
@@ -24,6 +25,10 @@ Result<std::vector<InputFinding>> examineFrame(const lab::Frame& frame, int thre
     images.albedo = frame.albedo;
     images.radiance = lab::gatheredRadiance(frame);
     if (settings.emission) images.emission = frame.emission;
+    if (settings.motion) {
+        images.previousCamera = lab::cameraMatrices(frame.previousCamera, settings.resolution);
+        images.motion = frame.motion;
+    }
     const auto inputs = inputCheckInputs(settings, images);
     // A camera that contradicts the conventions is a finding in itself.
     if (!inputs)
