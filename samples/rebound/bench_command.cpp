@@ -195,12 +195,14 @@ Result<> bench(const BenchOptions& options) {
     if (!preparations) return preparations.error();
     const auto source = obtainFrame(options.source, preparations->front().extent, options.device.threads);
     if (!source) return source.error();
+    const auto notes = notesOf(*source, options.device.threads);
+    if (!notes) return notes.error();
     auto runs = prepareRuns(configurations, *preparations, *source);
     if (!runs) return runs.error();
     if (auto measured = measureAll(*runs, options); !measured) return measured;
     if (options.json) std::cout << toText(toJson(*source, *runs, options));
     else print(*source, *runs, configurations.size() == 1, options.frames, options.warmUp);
-    printNotes(source->notes, options.json ? std::cerr : std::cout);
+    printNotes(*notes, options.json ? std::cerr : std::cout);
     return {};
 }
 

@@ -70,7 +70,12 @@ TEST_CASE("check finds nothing in a right frame, and names what is wrong in othe
     // render says the same, and renders.
     const Outcome rendered = run("render --frame frame --out result", folder.path());
     CHECK(rendered.exitCode == 0);
-    mentions(rendered.output, "note: " + json.at("findings")[0].at("sentence").get<std::string>());
+    const std::string note = "note: " + json.at("findings")[0].at("sentence").get<std::string>();
+    mentions(rendered.output, note);
+    // So does bench, which would measure it without a word otherwise.
+    const std::string bench = "bench --frame frame --frames 1 --warm-up 0";
+    mentions(run(bench, folder.path()).output, note);
+    mentions(run(bench + " --json", folder.path()).errors, note);
 }
 
 TEST_CASE("check goes on where render refuses pixels") {
