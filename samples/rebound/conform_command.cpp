@@ -18,8 +18,9 @@ namespace {
 struct ConformOptions {
     std::string backends; // comma-separated; empty: all that there are
     std::string device;
-    std::string only;      // part of cases' names
-    std::string technique; // empty: all
+    std::string only;             // part of cases' names
+    std::string technique;        // empty: all
+    std::string size = "320x180"; // of scenes
     int cases = 100;
     uint64_t seed = 1;
     bool validation = false;
@@ -81,6 +82,8 @@ Result<std::vector<conformance::NamedCase>> chosenCases(const ConformOptions& op
     const auto isChosen = [&](const std::string& name) {
         return options.technique.empty() || options.technique == name;
     };
+    const auto extent = parseSize(options.size);
+    if (!extent) return extent.error();
     std::vector<conformance::NamedCase> all;
     const auto add = [&](std::vector<conformance::NamedCase> more) {
         all.insert(all.end(), more.begin(), more.end());
@@ -90,7 +93,7 @@ Result<std::vector<conformance::NamedCase>> chosenCases(const ConformOptions& op
         add(conformance::randomCases(options.cases, options.seed));
     }
     for (const techniques::Technique& technique : techniques::all())
-        if (isChosen(technique.name)) add(conformance::sceneCases(technique));
+        if (isChosen(technique.name)) add(conformance::sceneCases({.extent = *extent}, technique));
     std::erase_if(all, [&](const auto& c) { return c.name.find(options.only) == std::string::npos; });
     return all;
 }
@@ -133,6 +136,9 @@ Command addConformCommand(CLI::App& program) {
         ->option_text("N")
         ->check(CLI::Range(0, 100000));
     app->add_option("--seed", options->seed, "of the random cases (default: 1)")->option_text("S");
+    app->add_option("--size", options->size,
+                    "of the pictures of scenes [pixels], each side 1 to 16384 (default: 320x180)")
+        ->option_text("WxH");
     app->add_option("--only", options->only, "only cases whose names hold this (default: all)")
         ->option_text("TEXT");
     app->add_flag("--validation", options->validation,

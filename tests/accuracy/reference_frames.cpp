@@ -20,17 +20,32 @@ T take(Result<T> result) {
     return std::move(*result);
 }
 
+// By view: what screen space can reach there. An empty object where there is no such file.
+nlohmann::ordered_json limitsOf(const std::filesystem::path& shared) {
+    std::ifstream file(shared / "reference" / "limits.json");
+    return file ? nlohmann::ordered_json::parse(file) : nlohmann::ordered_json::object();
+}
+
 } // namespace
+
+std::vector<PublishedView> publishedViews(const std::filesystem::path& shared) {
+    std::vector<PublishedView> views;
+    const nlohmann::ordered_json limits = limitsOf(shared);
+    for (const auto& [name, presets] : limits.items()) {
+        const size_t slash = name.find('/');
+        const std::string scene = name.substr(0, slash);
+        views.push_back({scene, name.substr(slash + 1), shared / "scenes" / scene / "scene.gltf"});
+    }
+    return views;
+}
 
 std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& shared) {
     std::vector<ReferenceView> views;
-    std::ifstream file(shared / "reference" / "limits.json");
-    if (!file) return views;
-    const nlohmann::ordered_json limits = nlohmann::ordered_json::parse(file);
+    const nlohmann::ordered_json limits = limitsOf(shared);
     for (const auto& [name, presets] : limits.items()) {
         const std::filesystem::path folder = shared / "reference" / name;
         ReferenceView view{
-            name, take(lab::readFrame(folder)), take(lab::readExr(folder / "indirect_1.exr")), {}};
+            name, take(lab::readFrame(folder)), take(lab::readExr(folder / "indirect_1.exr")), {}, {}};
         view.bruteForce = {presets.at("brute").at(0).get<double>(), presets.at("brute").at(1).get<double>()};
         views.push_back(std::move(view));
     }
@@ -58,12 +73,15 @@ lab::Image gather(const ReferenceView& view, ScreenIndirectSettings settings) {
 }
 
 ImageError errorOf(const lab::Image& result, const ReferenceView& view) {
+    const bool hasHalves = !view.halves[0].empty();
+    const lab::Image& first = hasHalves ? view.halves[0] : view.truth;
+    const lab::Image& second = hasHalves ? view.halves[1] : view.truth;
     double squared = 0, truth = 0, sum = 0, count = 0;
     for (size_t pixel = 0; pixel < view.frame.depth.data.size(); ++pixel) {
         if (view.frame.depth.data[pixel] <= 0.0f) continue;
         for (size_t c = 0; c < 3; ++c) {
             const double r = result.data[3 * pixel + c], t = view.truth.data[3 * pixel + c];
-            squared += (r - t) * (r - t);
+            squared += (r - double(first.data[3 * pixel + c])) * (r - double(second.data[3 * pixel + c]));
             truth += t;
             sum += r;
             count += 1;

@@ -5,7 +5,8 @@
 #include "lab/rays/frame.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
-#include <map>
+#include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,16 +22,27 @@ struct ReferenceView {
     std::string name; // scene/camera
     lab::Frame frame;
     lab::Image truth; // E / pi of light that met exactly one other surface
+    // Where they are not empty: two estimates of independent noise, whose mean is the truth.
+    std::array<lab::Image, 2> halves;
     ImageError
         bruteForce; // of the sum over every pixel of the start resolution, as published with the references
 };
 
-// Those below <shared>/reference that limits.json lists, in its order; empty where it is not there.
+struct PublishedView {
+    std::string scene, camera;
+    std::filesystem::path sceneFile;
+};
+
+// Those that <shared>/reference/limits.json lists, in its order; empty where it is not there.
+std::vector<PublishedView> publishedViews(const std::filesystem::path& shared);
+
+// The same views as they were published, by an independent renderer.
 std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& shared);
 
 // E / pi by the technique at these settings on the CPU, from radiance albedo * direct.
 lab::Image gather(const ReferenceView&, ScreenIndirectSettings);
 
+// Halves take the truth's noise out of the relative RMSE.
 ImageError errorOf(const lab::Image& result, const ReferenceView&);
 
 } // namespace rebound::accuracy

@@ -23,10 +23,25 @@ TEST_CASE("conform says which backends agree, as a table and as JSON") {
     CHECK(folder.count() == 0); // nothing disagrees, so there is no picture
 }
 
+TEST_CASE("conform compares every built-in scene at the size that it is given") {
+    const lab::TemporaryFolder folder;
+    const Outcome outcome =
+        run("conform --backends baseline --cases 0 --only builtin: --size 33x17 --json", folder.path());
+    REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.errors);
+    const auto json = nlohmann::json::parse(outcome.output);
+    CHECK(json.at("cases") == 5 * 2 + 2); // two settings each, and two sizes of the Cornell box
+    // 33x17 pixels take at most that many texels a case and image.
+    for (const auto& pass : json.at("passes")) {
+        CAPTURE(pass.dump());
+        CHECK(pass.at("texels") <= 33 * 17 * pass.at("images").get<int>());
+    }
+}
+
 TEST_CASE("conform refuses what it cannot compare") {
     const lab::TemporaryFolder folder;
     checkRefused(run("conform --backends baseline,metal", folder.path()), {"--backends", "metal"});
     checkRefused(run("conform --only nowhere", folder.path()), {"--only", "nowhere"});
+    checkRefused(run("conform --size 0x5", folder.path()), {"--size", "0x5"});
     checkRefused(run("conform --cases -1", folder.path()), {"--cases"});
     checkRefused(run("conform --backends vulkan --device nothing --cases 1", folder.path()), {"Vulkan"});
 }

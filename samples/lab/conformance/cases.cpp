@@ -4,7 +4,6 @@
 #include "lab/conformance/gbuffer.hpp"
 #include "lab/rays/frame.hpp"
 #include "lab/runner/texels.hpp"
-#include "lab/scenes/scene_files.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -170,17 +169,17 @@ std::vector<NamedCase> hardCases() {
             hardCase("point factor in a corner", usual, corner, byPoints)};
 }
 
-std::vector<NamedCase> sceneCases(const techniques::Technique& technique) {
-    static constexpr Extent2D extent{320, 180};
+std::vector<NamedCase> sceneCases(const SceneCases& options, const techniques::Technique& technique) {
     std::vector<NamedCase> cases;
-    for (const std::string scene : {"builtin:atrium", "builtin:cornell"})
+    const Extent2D extent = options.extent;
+    for (const std::string& scene : options.scenes)
         for (const techniques::Draft& draft : technique.examples)
-            cases.push_back({scene + toText(draft), [scene, &technique, draft] {
+            cases.push_back({scene + toText(draft), [scene, &technique, draft, extent] {
                                  return sceneCase(scene, technique, draft, extent);
                              }});
     // The room is 5.5 m wide.
     for (const auto& [name, size] : {std::pair{"0.1 m", 0.1f / 5.5f}, std::pair{"10 km", 1e4f / 5.5f}})
-        cases.push_back({std::string("builtin:cornell, ") + name, [size = size, &technique] {
+        cases.push_back({std::string("builtin:cornell, ") + name, [size = size, &technique, extent] {
                              return sceneCase("builtin:cornell", technique, technique.examples[0], extent,
                                               size);
                          }});

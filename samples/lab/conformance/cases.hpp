@@ -4,6 +4,7 @@
 
 #include "lab/conformance/tolerances.hpp"
 #include "lab/runner/runner.hpp"
+#include "lab/scenes/scene_files.hpp"
 #include "lab/techniques/technique.hpp"
 #include "rebound/techniques/screen_indirect.hpp"
 
@@ -32,7 +33,13 @@ struct NamedCase {
 std::vector<NamedCase> randomCases(int count, uint64_t seed);
 // Of screen-space indirect light: sizes, scales and values at the ends of what is allowed, and beyond.
 std::vector<NamedCase> hardCases();
-// The lab's scenes under the examples of a technique.
-std::vector<NamedCase> sceneCases(const techniques::Technique& = techniques::all().front());
+
+struct SceneCases {
+    std::vector<std::string> scenes = lab::builtinScenes();
+    Extent2D extent{320, 180};
+};
+// First views of scenes under the examples of a technique, and the Cornell box at sizes of 0.1 m and 10 km.
+std::vector<NamedCase> sceneCases(const SceneCases& = {},
+                                  const techniques::Technique& = techniques::all().front());
 
 } // namespace rebound::conformance
