@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The error of every preset against the truth, on two built-in views and the published ones, at the size of the latter.
-// All built-in views at a size that people use: preset_errors_long_test.cpp.
+// A size that people use: preset_errors_long_test.cpp.
 #include "preset_record.hpp"
 
 #include "lab/light/reference_cache.hpp"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 
 namespace rebound::accuracy {
@@ -60,6 +61,7 @@ PresetRecord::PresetRecord(const std::filesystem::path& path) : name(path.filena
 void PresetRecord::check(const ReferenceView& view, bool withBruteForce) {
     CAPTURE(view.name);
     const Json& errors = now[view.name] = errorsOf(view, withBruteForce);
+    std::cout << view.name << ' ' << errors.dump() << std::endl; // what takes minutes is not lost
     CHECK_MESSAGE(stated.contains(view.name), name, " does not hold this view");
     if (!stated.contains(view.name)) return;
     for (const auto& [preset, error] : errors.items()) {

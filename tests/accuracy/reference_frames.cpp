@@ -28,17 +28,6 @@ nlohmann::ordered_json limitsOf(const std::filesystem::path& shared) {
 
 } // namespace
 
-std::vector<PublishedView> publishedViews(const std::filesystem::path& shared) {
-    std::vector<PublishedView> views;
-    const nlohmann::ordered_json limits = limitsOf(shared);
-    for (const auto& [name, presets] : limits.items()) {
-        const size_t slash = name.find('/');
-        const std::string scene = name.substr(0, slash);
-        views.push_back({scene, name.substr(slash + 1), shared / "scenes" / scene / "scene.gltf"});
-    }
-    return views;
-}
-
 std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& shared) {
     std::vector<ReferenceView> views;
     const nlohmann::ordered_json limits = limitsOf(shared);

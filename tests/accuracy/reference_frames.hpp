@@ -28,15 +28,7 @@ struct ReferenceView {
         bruteForce; // of the sum over every pixel of the start resolution, as published with the references
 };
 
-struct PublishedView {
-    std::string scene, camera;
-    std::filesystem::path sceneFile;
-};
-
-// Those that <shared>/reference/limits.json lists, in its order; empty where it is not there.
-std::vector<PublishedView> publishedViews(const std::filesystem::path& shared);
-
-// The same views as they were published, by an independent renderer.
+// Those below <shared>/reference that limits.json lists, in its order; empty where it is not there.
 std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& shared);
 
 // E / pi by the technique at these settings on the CPU, from radiance albedo * direct.
