@@ -3,6 +3,7 @@
 
 #include "rebound/detail/kernel_check.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 
@@ -24,16 +25,28 @@ AlignedMemory AlignedMemory::allocate(size_t size) {
                                                    std::byte[size])};
 }
 
-ImageLayout layoutOf(const Resource& r) {
+namespace {
+
+ptrdiff_t alignedRow(ptrdiff_t width) { return (width + rowAlignment - 1) / rowAlignment * rowAlignment; }
+
+// Planes a multiple of 4096 bytes apart would have the channels of a texel compete for a few lines of the nearest cache.
+ptrdiff_t apartInCache(ptrdiff_t stride) {
+    constexpr ptrdiff_t step = 256,
+                        rest = 96; // of four planes no two come nearer than 32, modulo 1024 [floats]
+    return stride + (step + rest - stride % step) % step;
+}
+
+ImageLayout layoutOf(const Resource& r, bool isApart) {
     ImageLayout layout;
-    const ptrdiff_t padded = r.extent.width + rowPadding + rowAlignment - 1;
-    layout.rowStride = padded / rowAlignment * rowAlignment;
-    layout.channelStride = layout.rowStride * r.extent.height + ptrdiff_t(2) * planeMargin;
+    layout.rowStride = alignedRow(r.extent.width + rowPadding);
+    if (isApart) {
+        layout.oddColumns = alignedRow((r.extent.width + 1) / 2 + apartPadding);
+        layout.rowStride = 2 * layout.oddColumns;
+    }
+    layout.channelStride = apartInCache(layout.rowStride * r.extent.height + ptrdiff_t(2) * planeMargin);
     layout.size = size_t(layout.channelStride) * size_t(r.channels) * sizeof(float);
     return layout;
 }
-
-namespace {
 
 // In one block: what transients share, then tables, then what is kept from frame to frame.
 struct MemoryPlan {
@@ -43,11 +56,24 @@ struct MemoryPlan {
 
 size_t aligned(size_t size) { return (size + memoryAlignment - 1) / memoryAlignment * memoryAlignment; }
 
-size_t sizeInMemory(const Resource& r) { return isImage(r.kind) ? layoutOf(r).size : aligned(r.size); }
+size_t sizeInMemory(const Resource& r, bool isApart) {
+    return isImage(r.kind) ? layoutOf(r, isApart).size : aligned(r.size);
+}
 
-MemoryPlan planMemory(const Plan& plan) {
+// By resource: whether some kernel reads it by sparse pixels, so that its columns are kept apart.
+std::vector<bool> findApart(const Plan& plan, const Device::Shared& device) {
+    std::vector<bool> isApart(plan.resources.size());
+    for (const Pass& pass : plan.passes)
+        if (const KernelEntry* kernel = device.findKernel(pass.kernel))
+            for (const PassBinding& b : pass.bindings)
+                if ((kernel->info.sparse >> b.slot & 1) != 0) isApart[size_t(b.resource)] = true;
+    return isApart;
+}
+
+MemoryPlan planMemory(const Plan& plan, const std::vector<bool>& isApart) {
     std::vector<size_t> sizes;
-    for (const Resource& r : plan.resources) sizes.push_back(sizeInMemory(r));
+    for (size_t i = 0; i < plan.resources.size(); ++i)
+        sizes.push_back(sizeInMemory(plan.resources[i], isApart[i]));
     MemoryPlan memory;
     const TransientLayout transients = layoutTransients(plan, sizes, memoryAlignment);
     memory.offsets = transients.offsets;
@@ -68,7 +94,7 @@ MemoryPlan planMemory(const Plan& plan) {
 
 bool isOwn(ResourceKind k) { return isTransient(k) || isPersistent(k) || k == ResourceKind::buffer; }
 
-Binding bindingOf(const Resource& r, std::byte* memory) {
+Binding bindingOf(const Resource& r, bool isApart, std::byte* memory) {
     Binding b;
     b.width = r.extent.width;
     b.height = r.extent.height;
@@ -77,11 +103,12 @@ Binding bindingOf(const Resource& r, std::byte* memory) {
     if (isOwn(r.kind)) b.data = memory;
     if (isOwn(r.kind) && isImage(r.kind)) {
         b.holdsHalves = r.format == Format::rgba16f;
-        const ImageLayout layout = layoutOf(r);
+        const ImageLayout layout = layoutOf(r, isApart);
         b.data = reinterpret_cast<float*>(memory) + planeMargin;
         b.pixelStride = sizeof(float);
         b.rowStride = layout.rowStride * ptrdiff_t(sizeof(float));
         b.channelStride = layout.channelStride * ptrdiff_t(sizeof(float));
+        b.oddColumns = layout.oddColumns * ptrdiff_t(sizeof(float));
     }
     return b;
 }
@@ -92,15 +119,16 @@ Result<CompiledPass> compilePass(const Plan& plan, const Pass& pass, const Kerne
         return valid.error();
     CompiledPass compiled;
     compiled.run = kernel.variants[detail::combinationOf(pass, kernel.info)];
-    // Enough to hide a task's overhead of well under a microsecond.
-    constexpr int pixelsPerTask = 2048, itemsPerTask = 256;
+    // Enough to hide a task's overhead of well under a microsecond; of large images rows enough to be read in one piece.
+    constexpr int itemsPerTask = 256;
     if (pass.items > 0) {
         compiled.widthOrItems = compiled.count = pass.items;
         compiled.countPerTask = itemsPerTask;
     } else {
         compiled.widthOrItems = pass.grid.width;
         compiled.count = pass.grid.height;
-        compiled.countPerTask = std::max(1, pixelsPerTask / pass.grid.width);
+        const int pixels = std::clamp(pass.grid.width * pass.grid.height / 64, 2048, 16384);
+        compiled.countPerTask = std::max(1, pixels / pass.grid.width);
     }
     for (const PassBinding& binding : pass.bindings) {
         const Resource& r = plan.resources[size_t(binding.resource)];
@@ -146,7 +174,7 @@ int Device::threads() const { return shared->pool ? shared->pool->threadCount() 
 
 Result<MemoryUse> Device::memoryUse(const Plan& plan) const {
     if (auto valid = validate(plan); !valid) return valid.error();
-    return planMemory(plan).use;
+    return planMemory(plan, findApart(plan, *shared)).use;
 }
 
 Result<Buffer> Device::createBuffer(std::span<const std::byte> data) const {
@@ -166,7 +194,8 @@ Result<Buffer> Device::createBuffer(std::span<const std::byte> data) const {
 Result<Program> Device::compile(const Plan& plan) const {
     if (auto valid = validate(plan); !valid) return valid.error();
     auto state = std::make_unique<Program::State>();
-    const MemoryPlan memory = planMemory(plan);
+    const std::vector<bool> isApart = findApart(plan, *shared);
+    const MemoryPlan memory = planMemory(plan, isApart);
     state->device = shared;
     state->plan = plan;
     state->use = memory.use;
@@ -179,8 +208,8 @@ Result<Program> Device::compile(const Plan& plan) const {
     for (size_t i = 0; i < plan.resources.size(); ++i) {
         const Resource& r = plan.resources[i];
         std::byte* begin = base + memory.offsets[i];
-        state->resources.push_back(bindingOf(r, begin));
-        state->historyDistance.push_back(r.kind == ResourceKind::history ? sizeInMemory(r) : 0);
+        state->resources.push_back(bindingOf(r, isApart[i], begin));
+        state->historyDistance.push_back(r.kind == ResourceKind::history ? sizeInMemory(r, isApart[i]) : 0);
         if (r.kind == ResourceKind::buffer) std::memcpy(begin, r.data->data(), r.size);
     }
     for (const Pass& pass : plan.passes) {

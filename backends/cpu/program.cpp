@@ -52,10 +52,18 @@ void clearMargins(const Binding& image) {
 void clearRowPadding(const Binding& image, int yBegin, int yEnd) {
     const ptrdiff_t stride = image.rowStride / ptrdiff_t(sizeof(float));
     const ptrdiff_t plane = image.channelStride / ptrdiff_t(sizeof(float));
+    const ptrdiff_t odd = image.oddColumns / ptrdiff_t(sizeof(float));
     for (int c = 0; c < image.channels; ++c)
-        for (int y = yBegin; y < yEnd; ++y)
-            clearFloats(static_cast<float*>(image.data) + c * plane + y * stride + image.width,
-                        stride - image.width);
+        for (int y = yBegin; y < yEnd; ++y) {
+            float* row = static_cast<float*>(image.data) + c * plane + y * stride;
+            if (odd == 0) {
+                clearFloats(row + image.width, stride - image.width);
+            } else {
+                const int evenCount = (image.width + 1) / 2, oddCount = image.width / 2;
+                clearFloats(row + evenCount, odd - evenCount);
+                clearFloats(row + odd + oddCount, stride - odd - oddCount);
+            }
+        }
 }
 
 Binding historyImage(const Program::State& s, ResourceIndex r, int image) {
@@ -175,6 +183,11 @@ Result<Binding> ownNamed(const Program::State& state, std::string_view name) {
     return current(state, index);
 }
 
+ptrdiff_t columnOffset(const Binding& b, int x) {
+    if (b.oddColumns == 0) return x * b.pixelStride;
+    return x / 2 * b.pixelStride + (x % 2 == 1 ? b.oddColumns : 0);
+}
+
 // Calls visit for each channel of each texel, or for all of a buffer, with its address and size.
 template <class Visit>
 void visitBytes(const Binding& b, Visit visit) {
@@ -184,7 +197,7 @@ void visitBytes(const Binding& b, Visit visit) {
             for (int x = 0; x < b.width; ++x)
                 for (int c = 0; c < b.channels; ++c)
                     visit(static_cast<char*>(b.data) + c * b.channelStride + y * b.rowStride +
-                              x * b.pixelStride,
+                              columnOffset(b, x),
                           sizeof(float));
 }
 

@@ -65,8 +65,8 @@ inline constexpr size_t memoryAlignment = 64; // a cache line, and the widest ve
 struct ImageLayout {
     ptrdiff_t rowStride = 0;     // [floats]
     ptrdiff_t channelStride = 0; // [floats]
+    ptrdiff_t oddColumns = 0;    // as a Binding's [floats]
     size_t size = 0;             // [bytes]
 };
-ImageLayout layoutOf(const Resource&);
 
 } // namespace rebound::cpu

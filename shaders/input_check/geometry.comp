@@ -42,7 +42,7 @@ RB_MAIN(pixel, k.grid)
             Mask surface = liesInside(at, k.size, 1.0f) && center.z > 0.0f && left.z > 0.0f && right.z > 0.0f &&
                            above.z > 0.0f && below.z > 0.0f;
             // In texels: products of differences stay floats at any scale.
-            Real inverseWidth = inverseTexelWidth(camera, center.z, 1.0f, projection);
+            Real inverseWidth = inverseTexelWidth(camera, reciprocal(max(center.z, Real(1e-30f))), 1.0f, projection);
             Vec3 g = unitOrZero(cross((right - center) * inverseWidth, (below - center) * inverseWidth));
             Vec3 other = unitOrZero(cross((left - center) * inverseWidth, (above - center) * inverseWidth));
             // Where a surface ends or bends, the two triangles differ.

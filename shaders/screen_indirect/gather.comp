@@ -11,8 +11,8 @@
 RB_KERNEL(Gather)
 RB_FEATURE(0, projection, 2)
 RB_FEATURE(1, formFactor, 2)
-RB_TEXTURE(0, surfaces)
-RB_TEXTURE(1, light)
+RB_SPARSE_TEXTURE(0, surfaces)
+RB_SPARSE_TEXTURE(1, light)
 RB_IMAGE(2, rgba16f, indirect)               // irradiance over pi [W m^-2 sr^-1]
 RB_BUFFER(3, RingSample, ring)
 RB_CONSTANTS(4, CameraConstants, camera)
@@ -24,6 +24,7 @@ RB_MAIN(pixel, k.extent)
         Vec3 n = receiver.normal;
         Vec2 ray = viewRay(camera, pixelCenter(at) * k.scale.x);
         Vec3 x = viewPosition(ray, receiver.z, projection);
+        vec2 step = vec2(k.scale.x * camera.ray.x, k.scale.x * camera.ray.y);
         Vec3 sum = Vec3(0.0f);
         int first = k.extent.w * ((columnOf(at) & 1) + 2 * (rowOf(at) & 1));
         for (int i = first; i < first + k.extent.z; ++i) {
@@ -31,8 +32,7 @@ RB_MAIN(pixel, k.extent)
             if (!reaches(surfaces, at, offset)) continue;
             Vec4 sender = fetchOffset(surfaces, at, offset);
             Vec4 l = fetchOffset(light, at, offset);
-            Vec2 senderRay = Vec2(ray.x + float(offset.x) * k.scale.x * camera.ray.x,
-                                  ray.y + float(offset.y) * k.scale.x * camera.ray.y);
+            Vec2 senderRay = Vec2(ray.x + float(offset.x) * step.x, ray.y + float(offset.y) * step.y);
             Vec3 d = viewPosition(senderRay, senderDistance(sender, l), projection) - x;
             // A receiver is no sender to itself: both cosines are 0, and the distance must not be.
             Real d2 = max(dot(d, d), Real(1e-30f));

@@ -2,6 +2,8 @@
 // How kernels read images, in every instruction set, at widths around those of the lanes.
 #include "kernel_runner.hpp"
 
+#include <glm/gtc/packing.hpp>
+
 namespace rebound::test {
 namespace {
 
@@ -15,6 +17,8 @@ struct AccessCase {
     Extent2D source, grid;
     ivec2 offset{0};
     int shift = 0, bias = 0;
+    bool isApart =
+        false; // whether a kernel reads the texture by sparse pixels, so that its columns are kept apart
 };
 
 Plan accessPlan(const AccessCase& c) {
@@ -36,6 +40,16 @@ Plan accessPlan(const AccessCase& c) {
             {"fetch", "fetch", {}, {{0, source}, {1, result, Access::write}, {2, constants}}, c.grid});
         return plan;
     }
+    if (c.isApart) {
+        const AccessConstants all{{c.source.width, c.source.height, 0, 0}, {0, 0, 0, 0}};
+        const auto other = plan.add({"other", ResourceKind::transient, {}, 4, c.source, {}, 0});
+        const auto otherConstants = plan.add(bufferResource("other constants", std::vector{all}));
+        plan.passes.push_back({"sparse",
+                               "sparse",
+                               {sparseFetch},
+                               {{0, source}, {1, other, Access::write}, {2, otherConstants}},
+                               c.source});
+    }
     plan.passes.push_back({"access",
                            "access",
                            {c.mode},
@@ -55,7 +69,7 @@ Picture access(const cpu::Device& device, const AccessCase& c, Picture& source) 
 
 // Checks every texel against the source's texel at texelAt(x, y).
 template <class TexelAt>
-void check(const AccessCase& c, TexelAt texelAt) {
+void checkLayout(const AccessCase& c, TexelAt texelAt) {
     Picture source = numbered(c.source);
     for (cpu::Isa isa : cpu::availableIsas()) {
         const cpu::Device device = deviceFor(isa);
@@ -78,7 +92,87 @@ void check(const AccessCase& c, TexelAt texelAt) {
     }
 }
 
+// Of a texture whose columns lie in order, and of one whose even and odd columns are kept apart.
+template <class TexelAt>
+void check(AccessCase c, TexelAt texelAt) {
+    checkLayout(c, texelAt);
+    c.isApart = true;
+    if (c.mode < accessHost && c.mode != accessFetch) checkLayout(c, texelAt);
+}
+
+// An image of the host in each layout that has an access of its own: whether texels lie side by side or pixels do, in
+// floats or in halves.
+void checkHostLayouts(int mode, Extent2D extent, Extent2D grid, ivec2 offset, int step) {
+    const AccessConstants k{{grid.width, grid.height, 0, 0}, {offset.x, offset.y, 0, 0}};
+    Plan plan{"test", {}, {}};
+    const auto host = plan.add({"host", ResourceKind::input, {}, 4, extent, {}, 0});
+    const auto source = plan.add({"source", ResourceKind::transient, {}, 4, extent, {}, 0});
+    const auto result = plan.add({"result", ResourceKind::output, {}, 4, grid, {}, 0});
+    const auto constants = plan.add(bufferResource("constants", std::vector{k}));
+    plan.passes.push_back(
+        {"copy", "copy", {}, {{0, host}, {1, source, Access::write}, {2, constants}}, extent});
+    plan.passes.push_back({"access",
+                           "access",
+                           {mode},
+                           {{0, source}, {1, host}, {2, result, Access::write}, {3, constants}},
+                           grid});
+    std::vector<float> floats(size_t(extent.width) * size_t(extent.height) * 4);
+    std::vector<uint16_t> halves(floats.size());
+    for (bool isPlanar : {true, false})
+        for (bool isHalf : {true, false}) {
+            cpu::Image image = isPlanar ? cpu::planarImage(floats.data(), extent, 4)
+                                        : cpu::interleavedImage(floats.data(), extent, 4);
+            if (isHalf)
+                image = isPlanar ? cpu::planarImage(halves.data(), extent, 4, cpu::Scalar::float16)
+                                 : cpu::interleavedImage(halves.data(), extent, 4, cpu::Scalar::float16);
+            const ptrdiff_t size = isHalf ? 2 : 4;
+            // Whole numbers below 2048, which halves hold.
+            const auto number = [](int x, int y, int c) {
+                return float((x * 13 + y * 101 + c * 509) % 2039 + 1);
+            };
+            for (int y = 0; y < extent.height; ++y)
+                for (int x = 0; x < extent.width; ++x)
+                    for (int c = 0; c < 4; ++c) {
+                        const ptrdiff_t at =
+                            (x * image.pixelStride + y * image.rowStride + c * image.channelStride) / size;
+                        floats[size_t(at)] = number(x, y, c);
+                        halves[size_t(at)] = glm::packHalf1x16(number(x, y, c));
+                    }
+            for (cpu::Isa isa : cpu::availableIsas()) {
+                auto program = deviceFor(isa).compile(plan);
+                REQUIRE(program);
+                Picture read(grid, 4, -1.0f);
+                REQUIRE(program->record({{{"host", image}, {"result", read.image()}}, {}}));
+                int wrong = 0;
+                for (int y = 0; y < grid.height; ++y)
+                    for (int x = 0; x < grid.width; ++x)
+                        for (int c = 0; c < 4; ++c) {
+                            const ivec2 at = ivec2(step * x, step * y) + offset;
+                            const bool isInside =
+                                at.x >= 0 && at.y >= 0 && at.x < extent.width && at.y < extent.height;
+                            wrong += read.at(x, y, c) != (isInside ? number(at.x, at.y, c) : 0.0f);
+                        }
+                CAPTURE(std::string(cpu::name(isa)));
+                CAPTURE(isPlanar);
+                CAPTURE(isHalf);
+                CAPTURE(extent.width);
+                CAPTURE(offset.x);
+                CHECK(wrong == 0);
+            }
+        }
+}
+
 } // namespace
+
+TEST_CASE("images of the host: the same in every layout, at every step") {
+    for (int width : {1, 3, 17, 31, 64, 65, 100, 130})
+        for (int o = 0; o <= 3; ++o) {
+            const ivec2 offset(o, o / 2);
+            checkHostLayouts(accessHostOffset, {width, 5}, {width, 5}, offset, 1);
+            checkHostLayouts(accessHostMinified, {width, 5}, {(width + 1) / 2, 3}, offset, 2);
+            checkHostLayouts(accessHostQuarter, {width, 5}, {(width + 3) / 4, 2}, offset, 4);
+        }
+}
 
 TEST_CASE("fetch: this pixel's texel") {
     for (int width : widths)
@@ -185,12 +279,22 @@ TEST_CASE("sparse pixels: every pixel once, its lanes in columns of its parity, 
                                            {mode},
                                            {{0, source}, {1, result, Access::write}, {2, constants}},
                                            extent});
+                    // Which has the first result kept with its columns apart, too.
+                    if (height == 3) {
+                        const auto again = plan.add({"again", ResourceKind::transient, {}, 4, extent, {}, 0});
+                        plan.passes.push_back({"again",
+                                               "sparse",
+                                               {sparseFetch},
+                                               {{0, result}, {1, again, Access::write}, {2, constants}},
+                                               extent});
+                    }
                     Picture picture = numbered(extent);
                     for (cpu::Isa isa : cpu::availableIsas()) {
                         auto program = deviceFor(isa).compile(plan);
                         REQUIRE(program);
                         REQUIRE(program->record({{{"host", picture.image()}}, {}}));
-                        const std::vector<float> texels = floatsOf(*program->read("result"));
+                        const std::vector<float> texels =
+                            floatsOf(*program->read(height == 3 ? "again" : "result"));
                         int wrong = 0;
                         for (int y = 0; y < height; ++y)
                             for (int x = 0; x < width; ++x)

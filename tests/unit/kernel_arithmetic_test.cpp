@@ -112,24 +112,24 @@ TEST_CASE("Int: every operator") {
     checkExactly(opIntSelect, o, [](float x, float y, float z) { return float(z > 0.0f ? int(x) : int(y)); });
 }
 
-TEST_CASE("inverseSqrt and reciprocal: within a relative 5e-7 of the truth") {
+TEST_CASE("inverseSqrt and reciprocal: within a relative 5e-7 of the truth, a rough one within 4e-4") {
     // The processor's estimate is off by 1.5 * 2^-12 = 3.7e-4 at most; a step of Newton's method leaves 1.5
     // and 1 times its square, 2.0e-7, and each of up to 4 roundings adds 6e-8.
-    const double bound = 5e-7;
+    const double bound = 5e-7, roughBound = 4e-4;
     Operands o{Picture({1000, 4}, 1), Picture({1000, 4}, 1), Picture({1000, 4}, 1)};
     for (size_t i = 0; i < o.x.values.size(); ++i)
         o.x.values[i] = std::ldexp(1.0f + float(i % 997) / 997.0f, int(i * 13 % 240) - 120);
     for (cpu::Isa isa : cpu::availableIsas())
-        for (int operation : {opInverseSqrt, opReciprocal}) {
+        for (int operation : {opInverseSqrt, opReciprocal, opRoughReciprocal}) {
             const Picture result = arithmetic(isa, operation, o);
             double worst = 0.0;
             for (size_t i = 0; i < o.x.values.size(); ++i) {
                 const double x = o.x.values[i],
-                             want = operation == opReciprocal ? 1.0 / x : 1.0 / std::sqrt(x);
+                             want = operation == opInverseSqrt ? 1.0 / std::sqrt(x) : 1.0 / x;
                 worst = std::max(worst, std::abs(double(result.values[4 * i]) / want - 1.0));
             }
             INFO(std::string(cpu::name(isa)));
-            CHECK(worst < bound);
+            CHECK(worst < (operation == opRoughReciprocal ? roughBound : bound));
         }
 }
 

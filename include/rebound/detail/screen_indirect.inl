@@ -116,27 +116,23 @@ private:
 
     void addReductions() {
         const int start = startShift(settings.start);
-        const bool half = start > 0;
-        Level level = addLevel(start == 2 ? "at half resolution" : "0", half ? 1 : 0);
-        addPrepare(level, half);
-        for (int shift = level.shift + 1; shift <= start + coarsest(); ++shift) {
-            if (shift > start) levels.push_back(level);
-            const std::string suffix = std::to_string(shift - start);
-            const Level coarser = addLevel(suffix, shift);
-            addReduce("reduce to level " + suffix, level, coarser);
-            level = coarser;
+        levels.push_back(addLevel("0", start));
+        addPrepare(levels[0]);
+        for (int k = 1; k <= coarsest(); ++k) {
+            const std::string suffix = std::to_string(k);
+            levels.push_back(addLevel(suffix, start + k));
+            addReduce("reduce to level " + suffix, levels[size_t(k) - 1], levels[size_t(k)]);
         }
-        levels.push_back(level);
     }
 
     int reduction() const { return settings.reduction == Reduction::voting ? reduceVoting : reduceNearest; }
 
-    void addPrepare(const Level& to, bool half) {
+    void addPrepare(const Level& to) {
         const ReduceConstants k{{to.extent.width, to.extent.height, 0, 0},
                                 {1.0f, settings.minimumCosine, 0, 0}};
         Pass pass{"prepare", "screen_indirect/prepare", {projection()}, {}, to.extent};
-        if (half) {
-            pass.kernel = "screen_indirect/prepare_half";
+        if (to.shift > 0) {
+            pass.kernel = to.shift == 1 ? "screen_indirect/prepare_half" : "screen_indirect/prepare_quarter";
             pass.features = {projection(), reduction()};
         }
         pass.bindings = {{0, depth},

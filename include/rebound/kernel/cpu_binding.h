@@ -10,8 +10,10 @@
 namespace rebound::cpu {
 
 // A texture or image holds one plane of 32-bit floats a channel. Each row is followed, and the first one preceded, by
-// padding that reads as zero: lanes may straddle an image's sides.
+// padding that reads as zero: lanes may straddle an image's sides. Where a kernel reads it by sparse pixels, a row is two:
+// its even columns, then its odd ones.
 inline constexpr int rowPadding = 32;   // at least, behind a row [floats]
+inline constexpr int apartPadding = 16; // the same behind a row of every other column [floats]
 inline constexpr int planeMargin = 64;  // before the first row and behind the last [floats]
 inline constexpr int rowAlignment = 16; // of the distance between rows [floats]
 
@@ -26,6 +28,8 @@ struct Binding {
     ptrdiff_t pixelStride = 0;   // [bytes]
     ptrdiff_t rowStride = 0;     // [bytes]
     ptrdiff_t channelStride = 0; // [bytes]
+    ptrdiff_t oddColumns =
+        0; // of the device's own: from an even column to the odd one behind it; 0: in order [bytes]
 };
 
 // Runs a kernel for the pixels of rows begin to end - 1 of a grid that is so many pixels wide; of a kernel for items, for

@@ -67,6 +67,11 @@ constexpr int featureValue() {
     Texture name;                                                                                            \
     static constexpr bool fillsGrid(Slot<slot>) { return true; }                                             \
     RB_BIND(slot, texture, name)
+#define RB_SPARSE_TEXTURE(slot, name)                                                                        \
+    SparseTexture name;                                                                                      \
+    static constexpr bool fillsGrid(Slot<slot>) { return true; }                                             \
+    static constexpr bool isSparse(Slot<slot>) { return true; }                                              \
+    RB_BIND(slot, texture, name)
 #define RB_TEXTURE_OF_ANY_SIZE(slot, name)                                                                   \
     TextureOfAnySize name;                                                                                   \
     RB_BIND(slot, texture, name)
@@ -108,7 +113,7 @@ constexpr int featureValue() {
     RB_SLOT(slot, constants, name)                                                                           \
     static constexpr size_t sizeOf(Slot<slot>) { return sizeof(Type); }                                      \
     void bind(Slot<slot>, const Binding& binding) { name = *static_cast<const Type*>(binding.data); }
-#define RB_MAIN(pixel, extent) void run(const Pixel pixel) const {
+#define RB_MAIN(pixel, extent) [[gnu::flatten]] void run(const Pixel pixel) const {
 #define RB_ITEM_MAIN(item, count) void run(const Item item) const {
 #define RB_END_KERNEL                                                                                        \
     }                                                                                                        \

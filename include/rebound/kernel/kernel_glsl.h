@@ -37,6 +37,7 @@
 #endif
 
 #define RB_TEXTURE(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
+#define RB_SPARSE_TEXTURE(slot, name) RB_TEXTURE(slot, name)
 #define RB_TEXTURE_OF_ANY_SIZE(slot, name) RB_TEXTURE(slot, name)
 #define RB_INPUT(slot, name) layout(RB_LAYOUT(slot)) uniform highp sampler2D name;
 #define RB_UINT_TEXTURE(slot, name) layout(RB_LAYOUT(slot)) uniform highp usampler2D name;
@@ -93,6 +94,7 @@ uint select(bool m, uint a, uint b) { return m ? a : b; }
 bool anyLane(bool m) { return m; }
 float inverseSqrt(float x) { return inversesqrt(x); }
 float reciprocal(float x) { return 1.0f / x; }
+float roughReciprocal(float x) { return 1.0f / x; }
 float toReal(int x) { return float(x); }
 int toInt(float x) { return int(x); }
 float toReal(uint x) { return float(x); }
@@ -147,6 +149,7 @@ uvec4 fetchOffset(highp usampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, p + 
 vec4 fetch(highp sampler2D t, ivec2 p) { return texelFetch(t, p, 0); }
 vec4 fetchOffset(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, p + o); }
 vec4 fetchMinified(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, 2 * p + o); }
+vec4 fetchQuarter(highp sampler2D t, ivec2 p, ivec2 o) { return fetchAt(t, 4 * p + o); }
 vec4 fetchMagnified(highp sampler2D t, ivec2 p, ivec2 bias, int shift, ivec2 o) {
     return fetchAt(t, ((p + bias) >> shift) + o);
 }

@@ -38,6 +38,12 @@ constexpr uint16_t gridBitOf() {
     else return 0;
 }
 
+template <int slot, class Kernel = ThisKernel<0, 0, 0, 0>>
+constexpr uint16_t sparseBitOf() {
+    if constexpr (requires { Kernel::isSparse(Slot<slot>{}); }) return uint16_t(1u << slot);
+    else return 0;
+}
+
 inline constexpr int variantCount =
     featureCountOf<0>() * featureCountOf<1>() * featureCountOf<2>() * featureCountOf<3>();
 
@@ -71,6 +77,7 @@ constexpr KernelInfo makeKernelInfo(std::integer_sequence<int, slot...>) {
             {formatOf<slot>()...},
             {nameOf<slot>()...},
             uint16_t((0 | ... | gridBitOf<slot>())),
+            uint16_t((0 | ... | sparseBitOf<slot>())),
             ThisKernel<0, 0, 0, 0>::forItems,
             kernelCombinations.entries};
 }

@@ -37,6 +37,7 @@ struct KernelInfo {
     Format formats[slotCount];          // of images that are written, and of buffers of numbers
     const char* names[slotCount];       // as the kernel calls its slots; null: none
     uint16_t grids;                     // a bit a slot: its texture has a texel at every pixel of the grid
+    uint16_t sparse;                    // a bit a slot: its texture is read by sparse pixels
     bool forItems;                      // runs for items instead of pixels
     // Whether a combination of features is among those that the kernel lists, by feature 0 + count 0 * (feature 1 + ...).
     const bool* combinations;

@@ -155,15 +155,22 @@ inline Real sqrt(Real a) { return {__builtin_sqrtf(a.batch)}; }
 inline Real floor(Real a) { return {__builtin_floorf(a.batch)}; }
 inline Real inverseSqrt(Real a) { return {1.0f / __builtin_sqrtf(a.batch)}; }
 inline Real reciprocal(Real a) { return {1.0f / a.batch}; }
+inline Real roughReciprocal(Real a) { return reciprocal(a); }
 inline Real toReal(Int a) { return {float(a.batch)}; }
 inline Int toInt(Real a) { return {int32_t(a.batch)}; }
 #else
 inline Real select(Mask m, Real a, Real b) { return {xsimd::select(m.batch, a.batch, b.batch)}; }
 inline Int select(Mask m, Int a, Int b) { return bitsOf(select(m, realOfBits(a), realOfBits(b))); }
 inline bool anyLane(Mask m) { return xsimd::any(m.batch); }
-// In GLSL's order of operands: where a lane compares NaN, the first operand is the result.
+// In GLSL's order of operands: where a lane compares NaN, the first operand is the result. x86's instructions do the same
+// with the second one.
+#if defined(__SSE2__)
+inline Real min(Real a, Real b) { return {xsimd::min(b.batch, a.batch)}; }
+inline Real max(Real a, Real b) { return {xsimd::max(b.batch, a.batch)}; }
+#else
 inline Real min(Real a, Real b) { return select(b < a, b, a); }
 inline Real max(Real a, Real b) { return select(a < b, b, a); }
+#endif
 inline Real abs(Real a) { return {xsimd::abs(a.batch)}; }
 inline Real sqrt(Real a) { return {xsimd::sqrt(a.batch)}; }
 inline Real floor(Real a) { return {xsimd::floor(a.batch)}; }
@@ -172,7 +179,7 @@ inline Int toInt(Real a) { return {xsimd::to_int(a.batch)}; }
 #endif
 inline Real clamp(Real a, Real low, Real high) { return min(max(a, low), high); }
 inline Real mix(Real a, Real b, Real t) { return a + (b - a) * t; }
-inline Mask isFinite(Real a) { return !((bitsOf(a) & Int(0x7f800000)) == Int(0x7f800000)); }
+inline Mask isFinite(Real a) { return abs(a) < Real(std::numeric_limits<float>::infinity()); }
 
 inline UInt select(Mask m, UInt a, UInt b) { return toUInt(select(m, toInt(a), toInt(b))); }
 inline UInt floatBitsToUint(Real a) { return toUInt(bitsOf(a)); }

@@ -24,38 +24,59 @@ inline Real inverseSqrt(Real a) {
 #endif
 }
 
-inline Real reciprocal(Real a) {
+// 1 / a for normal a, to a relative 4e-4: the processor's estimate.
+inline Real roughReciprocal(Real a) {
 #if defined(__AVX512F__)
-    const Real estimate{RealBatch(_mm512_rcp14_ps(a.batch))};
+    return {RealBatch(_mm512_rcp14_ps(a.batch))};
 #elif defined(__AVX2__)
-    const Real estimate{RealBatch(_mm256_rcp_ps(a.batch))};
+    return {RealBatch(_mm256_rcp_ps(a.batch))};
 #elif defined(__SSE2__)
-    const Real estimate{RealBatch(_mm_rcp_ps(a.batch))};
+    return {RealBatch(_mm_rcp_ps(a.batch))};
 #else
     return Real(1.0f) / a;
 #endif
+}
+
+inline Real reciprocal(Real a) {
+    const Real estimate = roughReciprocal(a);
 #if defined(__SSE2__)
     return estimate * (Real(2.0f) - a * estimate);
+#else
+    return estimate;
 #endif
 }
 
-// Lanes p[0], p[2], p[4], ...
-inline Real loadEveryOther(const float* p) {
+// Lanes odd, odd + 2, ... of two vectors, one behind the other; odd: 0 or 1.
+inline Real everyOther(Real first, Real second, int odd) {
 #if defined(__AVX512F__)
     const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    return {RealBatch(_mm512_permutex2var_ps(_mm512_loadu_ps(p), even, _mm512_loadu_ps(p + 16)))};
+    const __m512i wanted = _mm512_add_epi32(even, _mm512_set1_epi32(odd));
+    return {RealBatch(_mm512_permutex2var_ps(first.batch, wanted, second.batch))};
 #elif defined(__AVX2__)
-    const __m256 pairs =
-        _mm256_shuffle_ps(_mm256_loadu_ps(p), _mm256_loadu_ps(p + 8), _MM_SHUFFLE(2, 0, 2, 0));
+    const __m256 pairs = odd ? _mm256_shuffle_ps(first.batch, second.batch, _MM_SHUFFLE(3, 1, 3, 1))
+                             : _mm256_shuffle_ps(first.batch, second.batch, _MM_SHUFFLE(2, 0, 2, 0));
     return {
         RealBatch(_mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(pairs), _MM_SHUFFLE(3, 1, 2, 0))))};
 #elif defined(__SSE2__)
-    return {RealBatch(_mm_shuffle_ps(_mm_loadu_ps(p), _mm_loadu_ps(p + 4), _MM_SHUFFLE(2, 0, 2, 0)))};
+    return {RealBatch(odd ? _mm_shuffle_ps(first.batch, second.batch, _MM_SHUFFLE(3, 1, 3, 1))
+                          : _mm_shuffle_ps(first.batch, second.batch, _MM_SHUFFLE(2, 0, 2, 0)))};
 #else
-    alignas(64) float lanes[laneCount];
-    for (int i = 0; i < laneCount; ++i) lanes[i] = p[2 * i];
+    alignas(64) float lanes[2 * laneCount];
+    storeLanes(lanes, first);
+    storeLanes(lanes + laneCount, second);
+    for (int i = 0; i < laneCount; ++i) lanes[i] = lanes[2 * i + odd];
     return loadLanes(lanes);
 #endif
+}
+
+// Lanes p[first], p[first + 2], ... of 2 * laneCount that are read; first: 0 or 1.
+inline Real loadEveryOther(const float* p, int first) {
+    return everyOther(loadLanes(p), loadLanes(p + laneCount), first);
+}
+
+// Lanes p[first], p[first + 4], ... of 4 * laneCount that are read; first: 0 to 3.
+inline Real loadEveryFourth(const float* p, int first) {
+    return everyOther(loadEveryOther(p, first & 1), loadEveryOther(p + 2 * laneCount, first & 1), first >> 1);
 }
 
 // Lane i is p[(i + bias) >> shift], for 0 <= bias < 1 << shift.
@@ -75,6 +96,69 @@ inline Real loadRepeated(const float* p, int bias, int shift) {
 #endif
 }
 
+// Lanes a[0], b[0], a[1], b[1], ...
+inline Real loadInTurns(const float* a, const float* b) {
+#if defined(__AVX512F__)
+    const __m512i turns = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    return {RealBatch(_mm512_permutex2var_ps(_mm512_castps256_ps512(_mm256_loadu_ps(a)), turns,
+                                             _mm512_castps256_ps512(_mm256_loadu_ps(b))))};
+#elif defined(__AVX2__)
+    const __m128 first = _mm_loadu_ps(a), second = _mm_loadu_ps(b);
+    return {RealBatch(_mm256_set_m128(_mm_unpackhi_ps(first, second), _mm_unpacklo_ps(first, second)))};
+#elif defined(__SSE2__)
+    const __m128 first = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(a)));
+    const __m128 second = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(b)));
+    return {RealBatch(_mm_unpacklo_ps(first, second))};
+#else
+    alignas(64) float lanes[laneCount];
+    for (int i = 0; i < laneCount; ++i) lanes[i] = (i & 1) != 0 ? b[i / 2] : a[i / 2];
+    return loadLanes(lanes);
+#endif
+}
+
+// Lanes 0, 2, 4, ... to a, the others to b.
+inline void storeInTurns(float* a, float* b, Real v) {
+#if defined(__AVX512F__)
+    const __m512i apart = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15);
+    const __m512 halves = _mm512_permutexvar_ps(apart, v.batch);
+    _mm256_storeu_ps(a, _mm512_castps512_ps256(halves));
+    _mm256_storeu_ps(b, _mm512_extractf32x8_ps(halves, 1));
+#elif defined(__AVX2__)
+    const __m256 halves = _mm256_permutevar8x32_ps(v.batch, _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7));
+    _mm_storeu_ps(a, _mm256_castps256_ps128(halves));
+    _mm_storeu_ps(b, _mm256_extractf128_ps(halves, 1));
+#else
+    alignas(64) float lanes[laneCount];
+    storeLanes(lanes, v);
+    for (int i = 0; i < laneCount; ++i) ((i & 1) != 0 ? b : a)[i / 2] = lanes[i];
+#endif
+}
+
+// As loadRepeated of the values a[0], b[0], a[1], b[1], ...
+inline Real loadRepeatedInTurns(const float* a, const float* b, int bias, int shift) {
+#if defined(__AVX512F__)
+    const __m512i place = _mm512_sra_epi32(_mm512_add_epi32(laneIndex().batch, _mm512_set1_epi32(bias)),
+                                           _mm_cvtsi32_si128(shift));
+    const __m512i half =
+        _mm512_slli_epi32(place, 4); // of which permutex2var reads the bit of odd places alone
+    return {RealBatch(_mm512_permutex2var_ps(
+        _mm512_castps256_ps512(_mm256_loadu_ps(a)),
+        _mm512_ternarylogic_epi32(_mm512_srli_epi32(place, 1), half, _mm512_set1_epi32(16), 0xf8),
+        _mm512_castps256_ps512(_mm256_loadu_ps(b))))};
+#elif defined(__AVX2__)
+    const __m256i place = _mm256_sra_epi32(_mm256_add_epi32(laneIndex().batch, _mm256_set1_epi32(bias)),
+                                           _mm_cvtsi32_si128(shift));
+    return {RealBatch(_mm256_permutevar8x32_ps(loadInTurns(a, b).batch, place))};
+#else
+    alignas(64) float lanes[laneCount];
+    for (int i = 0; i < laneCount; ++i) {
+        const int place = (i + bias) >> shift;
+        lanes[i] = (place & 1) != 0 ? b[place / 2] : a[place / 2];
+    }
+    return loadLanes(lanes);
+#endif
+}
+
 // laneCount half floats.
 inline Real loadHalves(const uint16_t* p) {
 #if defined(__AVX512F__)
@@ -85,6 +169,37 @@ inline Real loadHalves(const uint16_t* p) {
     alignas(64) float lanes[laneCount];
     for (int i = 0; i < laneCount; ++i) lanes[i] = halfToFloat(p[i]);
     return loadLanes(lanes);
+#endif
+}
+// As loadEveryOther and loadEveryFourth, of half floats.
+inline Real loadEveryOtherHalf(const uint16_t* p, int first) {
+#if defined(__AVX512F__)
+    const __m512i pairs = _mm512_loadu_si512(p);
+    return {RealBatch(_mm512_cvtph_ps(_mm512_cvtepi32_epi16(first ? _mm512_srli_epi32(pairs, 16) : pairs)))};
+#elif defined(__F16C__)
+    const __m256i pairs = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+    const __m256i wanted =
+        first ? _mm256_srli_epi32(pairs, 16) : _mm256_and_si256(pairs, _mm256_set1_epi32(0xffff));
+    const __m256i packed =
+        _mm256_permute4x64_epi64(_mm256_packus_epi32(wanted, wanted), _MM_SHUFFLE(3, 1, 2, 0));
+    return {RealBatch(_mm256_cvtph_ps(_mm256_castsi256_si128(packed)))};
+#else
+    alignas(64) float lanes[laneCount];
+    for (int i = 0; i < laneCount; ++i) lanes[i] = halfToFloat(p[2 * i + first]);
+    return loadLanes(lanes);
+#endif
+}
+inline Real loadEveryFourthHalf(const uint16_t* p, int first) {
+#if defined(__AVX512F__)
+    const __m512i places = _mm512_broadcast_i32x8(_mm256_setr_epi32(
+        0x00040000, 0x000c0008, 0x00140010, 0x001c0018, 0x00240020, 0x002c0028, 0x00340030, 0x003c0038));
+    const __m512i wanted = _mm512_add_epi16(places, _mm512_set1_epi16(short(first)));
+    const __m512i halves =
+        _mm512_permutex2var_epi16(_mm512_loadu_si512(p), wanted, _mm512_loadu_si512(p + 2 * laneCount));
+    return {RealBatch(_mm512_cvtph_ps(_mm512_castsi512_si256(halves)))};
+#else
+    return everyOther(loadEveryOtherHalf(p, first & 1), loadEveryOtherHalf(p + 2 * laneCount, first & 1),
+                      first >> 1);
 #endif
 }
 inline void storeHalves(uint16_t* p, Real a) {
@@ -104,9 +219,17 @@ inline void storeHalves(uint16_t* p, Real a) {
 
 #else
 
-inline Real loadEveryOther(const float* p) { return {*p}; }
+inline Real loadEveryOther(const float* p, int first) { return {p[first]}; }
+inline Real loadEveryFourth(const float* p, int first) { return {p[first]}; }
 inline Real loadRepeated(const float* p, int bias, int shift) { return {p[bias >> shift]}; }
+inline Real loadInTurns(const float* a, const float*) { return {*a}; }
+inline void storeInTurns(float* a, float*, Real v) { *a = v.batch; }
+inline Real loadRepeatedInTurns(const float* a, const float*, int bias, int shift) {
+    return {a[bias >> shift]};
+}
 inline Real loadHalves(const uint16_t* p) { return {halfToFloat(*p)}; }
+inline Real loadEveryOtherHalf(const uint16_t* p, int first) { return {halfToFloat(p[first])}; }
+inline Real loadEveryFourthHalf(const uint16_t* p, int first) { return {halfToFloat(p[first])}; }
 inline void storeHalves(uint16_t* p, Real a) { *p = floatToHalf(a.batch); }
 
 #endif

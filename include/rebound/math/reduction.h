@@ -6,16 +6,15 @@
 
 // How far two texels lie on one surface, 0 to 1: nearly Gaussians of 1 - cos of the angle between their normals (of
 // standard deviation 0.5), of the voter's distance from the candidate's tangent plane (2 texels), and of the relative
-// difference in depth (0.05).
+// difference in depth (0.05); each is 1 / (1 + d^2 / 8)^4, d in standard deviations.
+//   inverseZ       of the candidate's distance along the viewing axis                       [m^-1]
 //   inverseWidth   of a texel at the candidate                                              [m^-1]
 RB_FUNCTION Real resemblance(Surface candidate, Vec3 position, Surface voter, Vec3 voterPosition,
-                             Real inverseWidth) {
-    Real inverseZ = reciprocal(max(candidate.z, Real(1e-30f)));
-    Real angle = (Real(1.0f) - dot(candidate.normal, voter.normal)) * 2.0f;
-    Real plane = dot(candidate.normal, voterPosition - position) * inverseWidth * 0.5f;
-    Real depth = (voter.z - candidate.z) * inverseZ * 20.0f;
-    Real apart = (Real(1.0f) + angle * angle * 0.125f) * (Real(1.0f) + plane * plane * 0.125f) *
-                 (Real(1.0f) + depth * depth * 0.125f);
+                             Real inverseZ, Real inverseWidth) {
+    Real angle = Real(1.0f) - dot(candidate.normal, voter.normal);
+    Real plane = dot(candidate.normal, voterPosition - position) * (inverseWidth * 0.176776695f);
+    Real depth = (voter.z - candidate.z) * (inverseZ * 7.07106781f);
+    Real apart = (angle * angle * 0.5f + 1.0f) * (plane * plane + 1.0f) * (depth * depth + 1.0f);
     Real product = reciprocal(min(apart, Real(1e30f)));
     product = product * product;
     return product * product;
@@ -56,15 +55,17 @@ RB_FUNCTION LevelTexel reduceFour(LevelTexel fine[4], CameraConstants camera, Ve
     RB_UNROLL
     for (int i = 0; i < 4; ++i) {
         Surface s = fine[i].surface;
-        Real score = reciprocal(max(s.z, Real(1e-30f)));
+        Real inverseZ = reciprocal(max(s.z, Real(1e-30f)));
+        Real score = inverseZ;
         if (reduction == reduceVoting) {
             // All four vote, each as heavy as its area.
-            Real inverseWidth = inverseTexelWidth(camera, s.z, fineScale, projection);
+            Real inverseWidth = inverseTexelWidth(camera, inverseZ, fineScale, projection);
             score = s.areaOverPi;
             RB_UNROLL
             for (int j = 1; j < 4; ++j) {
                 Surface voter = fine[i ^ j].surface;
-                score += voter.areaOverPi * resemblance(s, position[i], voter, position[i ^ j], inverseWidth);
+                score += voter.areaOverPi *
+                         resemblance(s, position[i], voter, position[i ^ j], inverseZ, inverseWidth);
             }
         }
         score = select(s.areaOverPi > 0.0f, score, Real(0.0f));

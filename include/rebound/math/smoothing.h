@@ -12,7 +12,8 @@ RB_FUNCTION Vec3 smoothedGather(RB_TEXTURE_ARGUMENT surfaces, RB_TEXTURE_ARGUMEN
     Vec2 ray = viewRay(camera, pixelCenter(pixel) * scale);
     Vec3 n = receiver.normal;
     Real own = dot(n, viewPosition(ray, receiver.z, projection));
-    Real inverseWidth = inverseTexelWidth(camera, receiver.z, scale, projection);
+    Real inverseWidth =
+        inverseTexelWidth(camera, reciprocal(max(receiver.z, Real(1e-30f))), scale, projection);
     Vec4 center = fetchOffset(gathered, pixel, ivec2(0));
     Vec3 sum = Vec3(center.x, center.y, center.z);
     Real total = Real(1.0f);
@@ -23,13 +24,13 @@ RB_FUNCTION Vec3 smoothedGather(RB_TEXTURE_ARGUMENT surfaces, RB_TEXTURE_ARGUMEN
         Vec4 light = fetchOffset(gathered, pixel, offset);
         Vec2 tapRay = Vec2(ray.x + float(offset.x) * scale * camera.ray.x,
                            ray.y + float(offset.y) * scale * camera.ray.y);
-        Real inTexels = planeDistance(n, own, tapRay, surface.w, projection) * inverseWidth;
-        Real cosine2 = agreementOfNormals(n, Vec3(surface.x, surface.y, surface.z));
+        Real distance = planeDistance(n.z, own, n.x * tapRay.x + n.y * tapRay.y, surface.w, projection);
         float tent =
             (offset.x == 2 || offset.x == -2 ? 0.5f : 1.0f) * (offset.y == 2 || offset.y == -2 ? 0.5f : 1.0f);
         // The receiver itself is on its plane: it is the nearest.
-        Real agreement = bilateralWeight(Real(1.0f), planeApartness(inTexels * inTexels), cosine2) * tent;
-        Real weight = select(surface.w > 0.0f, agreement, Real(0.0f));
+        Real agreement = likenessOfNormals(n, Vec3(surface.x, surface.y, surface.z)) *
+                         nearness(Real(1.0f), planeApartness(distance * inverseWidth));
+        Real weight = select(surface.w > 0.0f, agreement * tent, Real(0.0f));
         sum += Vec3(light.x, light.y, light.z) * weight;
         total += weight;
     }

@@ -20,24 +20,30 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
     Vec2 at = pixelCenter(pixel) * toCoarse - Vec2(0.5f);
     Vec2 base = Vec2(floor(at.x), floor(at.y));
     Vec2 fraction = at - base;
-    Real inverseWidth = inverseTexelWidth(camera, receiver.z, coarseScale, projection);
+    Real inverseWidth =
+        inverseTexelWidth(camera, reciprocal(max(receiver.z, Real(1e-30f))), coarseScale, projection);
     Vec3 n = receiver.normal;
     Real own = dot(n, position);
     Vec2 nearRay = viewRay(camera, (base + Vec2(0.5f)) * coarseScale);
-    Vec2 step = Vec2(Real(coarseScale * camera.ray.x), Real(coarseScale * camera.ray.y));
+    Real across = n.x * nearRay.x + n.y * nearRay.y;
+    Real acrossColumn = n.x * (coarseScale * camera.ray.x);
+    Real acrossRow = n.y * (coarseScale * camera.ray.y);
     Real apartness[4];
-    Real cosine2[4];
+    Real share[4];              // of bilinear weight and likeness of normals
     Real nearest = Real(2e30f); // more than any
     RB_UNROLL
     for (int tap = 0; tap < 4; ++tap) {
         ivec2 offset = ivec2(tap & 1, tap >> 1);
         Vec4 surface = fetchMagnified(coarseSurfaces, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
-        Vec2 ray = Vec2(nearRay.x + step.x * float(offset.x), nearRay.y + step.y * float(offset.y));
-        Real distance = planeDistance(n, own, ray, surface.w, projection);
-        Real inTexels = distance * inverseWidth;
-        apartness[tap] = select(surface.w > 0.0f, planeApartness(inTexels * inTexels), Real(4e30f));
+        Real tapAcross = across;
+        if (offset.x == 1) tapAcross += acrossColumn;
+        if (offset.y == 1) tapAcross += acrossRow;
+        Real distance = planeDistance(n.z, own, tapAcross, surface.w, projection);
+        apartness[tap] = select(surface.w > 0.0f, planeApartness(distance * inverseWidth), Real(4e30f));
         nearest = min(nearest, apartness[tap]);
-        cosine2[tap] = agreementOfNormals(n, Vec3(surface.x, surface.y, surface.z));
+        Real bilinear = (offset.x == 1 ? fraction.x : Real(1.0f) - fraction.x) *
+                        (offset.y == 1 ? fraction.y : Real(1.0f) - fraction.y);
+        share[tap] = bilinear * likenessOfNormals(n, Vec3(surface.x, surface.y, surface.z));
     }
     Vec3 sum = Vec3(0.0f);
     Real total = Real(0.0f);
@@ -45,11 +51,8 @@ RB_FUNCTION Vec3 upsampled(RB_TEXTURE_ARGUMENT coarseSurfaces, RB_TEXTURE_ARGUME
     for (int tap = 0; tap < 4; ++tap) {
         ivec2 offset = ivec2(tap & 1, tap >> 1);
         Vec4 light = fetchMagnified(coarseLight, pixel, ivec2(halfTexel), shift, offset - ivec2(1));
-        Real agreement = select(apartness[tap] < 2e30f,
-                                bilateralWeight(nearest, apartness[tap], cosine2[tap]), Real(0.0f));
-        Real bilinear = (offset.x == 1 ? fraction.x : Real(1.0f) - fraction.x) *
-                        (offset.y == 1 ? fraction.y : Real(1.0f) - fraction.y);
-        Real weight = bilinear * agreement;
+        Real weight =
+            select(apartness[tap] < 2e30f, share[tap] * nearness(nearest, apartness[tap]), Real(0.0f));
         sum += Vec3(light.x, light.y, light.z) * weight;
         total += weight;
     }

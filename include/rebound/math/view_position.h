@@ -17,12 +17,13 @@ RB_FUNCTION Vec3 viewPosition(Vec2 ray, Real z, int projection) {
     return Vec3(ray.x * z, ray.y * z, z);
 }
 
-// The inverse of a texel's width at a distance z along the viewing axis [m^-1].
-//   scale   full-resolution pixels a texel
-RB_FUNCTION Real inverseTexelWidth(CameraConstants camera, Real z, float scale, int projection) {
-    float texel = scale * max(abs(camera.ray.x), abs(camera.ray.y));
-    if (projection == orthographicProjection) return Real(1.0f / texel);
-    return reciprocal(max(z * texel, Real(1e-30f)));
+// The inverse of a texel's width at a distance along the viewing axis [m^-1].
+//   inverseZ   of the distance                                                              [m^-1]
+//   scale      full-resolution pixels a texel
+RB_FUNCTION Real inverseTexelWidth(CameraConstants camera, Real inverseZ, float scale, int projection) {
+    float inverse = 1.0f / (scale * max(abs(camera.ray.x), abs(camera.ray.y)));
+    if (projection == orthographicProjection) return Real(inverse);
+    return inverseZ * inverse;
 }
 
 // Distance along the viewing axis of a stored depth [m].

@@ -31,6 +31,7 @@ private:
     Extent2D extent;
     int channels = 0;
     cpu::Scalar scalar = cpu::Scalar::float32;
+    size_t planeSize = 0; // from one channel's plane to the next [bytes]
     std::vector<std::byte> bytes;
 };
 

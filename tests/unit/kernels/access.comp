@@ -26,6 +26,7 @@ RB_MAIN(pixel, k.extent)
     if (mode == accessHost) r = fetch(host, pixel);
     if (mode == accessHostOffset) r = fetchOffset(host, pixel, offset);
     if (mode == accessHostMinified) r = fetchMinified(host, pixel, offset);
+    if (mode == accessHostQuarter) r = fetchQuarter(host, pixel, offset);
     if (mode == accessCenter) {
         Vec2 center = pixelCenter(pixel);
         r = Vec4(center.x, center.y, Real(0.0f), Real(0.0f));

@@ -47,6 +47,7 @@ RB_MAIN(pixel, k.extent)
     if (operation == opSelect) r.x = select(z > 0.0f, x, y);
     if (operation == opInverseSqrt) r.x = inverseSqrt(x);
     if (operation == opReciprocal) r.x = reciprocal(x);
+    if (operation == opRoughReciprocal) r.x = roughReciprocal(x);
     if (operation == opMix) r.x = mix(x, y, z);
     if (operation == opIntAdd) r.x = toReal(toInt(x) + toInt(y));
     if (operation == opIntSubtract) r.x = toReal(toInt(x) - toInt(y));

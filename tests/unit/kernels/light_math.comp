@@ -20,7 +20,10 @@ RB_MAIN(pixel, k.extent)
     Vec4 r = Vec4(0.0f);
     if (mode == lightDisc) r.x = pointToDisc(a.x, a.y, a.z);
     if (mode == lightPoint) r.x = pointToPoint(a.x, a.y, a.z);
-    if (mode == lightBilateral) r.x = bilateralWeight(Real(1.0f), planeApartness(a.x), a.y);
+    if (mode == lightBilateral) {
+        r.x = likenessOfNormals(Vec3(0.0f, 0.0f, 1.0f), Vec3(b.x, b.y, b.z)) *
+              nearness(Real(1.0f), planeApartness(a.x));
+    }
     if (mode == lightUnpacked || mode == lightUnpackedArea) {
         LevelTexel t;
         t.surface.normal = Vec3(a.x, a.y, a.z);

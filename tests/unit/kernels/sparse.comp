@@ -5,7 +5,7 @@
 // Reads and writes by columns of one parity; marks each texel with its own column and row.
 RB_KERNEL(Sparse)
 RB_FEATURE(0, mode, sparseModeCount)
-RB_TEXTURE(0, source)
+RB_SPARSE_TEXTURE(0, source)
 RB_IMAGE(1, rgba32f, result)
 RB_CONSTANTS(2, AccessConstants, k)
 RB_MAIN(pixel, k.extent)

@@ -46,7 +46,8 @@ const int opIntSelect = 38;
 const int opRoundTrip = 39;
 const int opVectors = 40;
 const int opVectorSelect = 41;
-const int opCount = 42;
+const int opRoughReciprocal = 42;
+const int opCount = 43;
 
 struct GridConstants {
     ivec4 extent; // .xy of the image written [texels]
@@ -63,7 +64,8 @@ const int accessHost = 6;
 const int accessHostOffset = 7;
 const int accessHostMinified = 8;
 const int accessCenter = 9;
-const int accessCount = 10;
+const int accessHostQuarter = 10;
+const int accessCount = 11;
 
 // Modes of the sparse kernel.
 const int sparseFetch = 0;

@@ -21,7 +21,8 @@ struct Buffer {
     SharedBytes shared;   // of Device::createBuffer(): what data points into
 };
 
-// An image of the host, in any regular layout: interleaved or a plane a channel. Fastest: a plane a channel.
+// An image of the host, in any regular layout: interleaved or a plane a channel. Fastest: a plane a channel, planes not a
+// multiple of 4096 bytes apart, as those of 1280x720 halves are: all channels would compete for a few lines of the cache.
 // The host keeps it alive during record(), and no output may overlap any other image of the frame.
 struct Image {
     using Buffer = cpu::Buffer;
