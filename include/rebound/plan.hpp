@@ -101,8 +101,9 @@ struct Pass {
     std::string kernel;        // name of the kernel, such as "screen_indirect/gather"
     std::vector<int> features; // values of the kernel's features, by their number
     std::vector<PassBinding> bindings;
-    Extent2D grid; // pixels that the kernel runs for
-    int items = 0; // of a kernel for items, which has no grid: how many, 1 to maximumItems
+    Extent2D grid;               // pixels that the kernel runs for
+    int items = 0;               // of a kernel for items, which has no grid: how many, 1 to maximumItems
+    bool readsElsewhere = false; // it may read buffers that it writes too: elements that it does not write
 };
 
 struct Plan {
@@ -206,7 +207,7 @@ inline constexpr int maximumItems = 1 << 30;
 inline constexpr size_t maximumBufferSize = size_t(1) << 32; // [bytes]
 
 // Checks what every device relies on: names and labels unique, bindings in range, what lives within a frame written
-// before it is read, nothing read and written by one pass, extents within 1 to maximumExtent, at most 16 slots and 4
+// before it is read, nothing read and written by one pass (but elements apart, where a pass says so), extents within 1 to maximumExtent, at most 16 slots and 4
 // features.
 Result<> validate(const Plan&);
 

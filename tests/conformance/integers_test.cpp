@@ -121,6 +121,33 @@ uint32_t expected(int operation, uint32_t x, uint32_t y) {
     }
 }
 
+// What item i adds to the results of the kernel numbers.
+void expect(int way, int i, int offset, const Numbers& source, const std::vector<float>& reals,
+            Numbers& right, std::vector<float>& realRight) {
+    const int size = int(source.size());
+    const auto isInside = [&](int at, int width = 1) { return at >= 0 && at < size / width; };
+    const int read = way == k::reachOffset    ? i + offset
+                     : way == k::reachAt      ? 3 * i + offset
+                     : way == k::reachUniform ? offset
+                     : way == k::reachFirst   ? (i * 5) & 3
+                                              : i;
+    const int written = way == k::reachStoreOffset ? i + offset : way == k::reachStoreAt ? 3 * i + offset : i;
+    if (way == k::reachStoreFour) {
+        right[size_t(i)] = source[size_t(i)];
+        if (isInside(i + offset, 4))
+            for (int c = 0; c < 4; ++c) realRight[size_t(4 * (i + offset) + c)] = reals[size_t(i)] + float(c);
+        return;
+    }
+    if (!isInside(written)) return;
+    right[size_t(written)] = isInside(read) ? source[size_t(read)] : 0u;
+    float& real = realRight[size_t(written)];
+    real = isInside(read) ? reals[size_t(way == k::reachFirst ? read + 1 : read)] : 0.0f;
+    if (way != k::reachFour) return;
+    real = 0.0f;
+    if (isInside(i + offset, 4))
+        for (int c = 0; c < 4; ++c) real += float(1 << c) * reals[size_t(4 * (i + offset) + c)];
+}
+
 // GPUs round integers of more than 24 bits to one of the two nearest floats, as OpenGL and Vulkan allow.
 bool agrees(int operation, uint32_t value, uint32_t right) {
     if (operation != k::uintToReal && operation != k::uintFromReal) return value == right;
@@ -161,7 +188,7 @@ TEST_CASE("operations on unsigned integers, and images that hold them") {
 }
 
 TEST_CASE("items read and write buffers of numbers, and nothing beyond them") {
-    constexpr int count = 75, size = 90; // no multiple of lanes or groups; more elements than items
+    constexpr int count = 75, size = 90; // no multiple of lanes, groups or fours; more elements than items
     Numbers source(size);
     std::vector<float> reals(size);
     for (size_t i = 0; i < size_t(size); ++i) {
@@ -196,19 +223,7 @@ TEST_CASE("items read and write buffers of numbers, and nothing beyond them") {
                             count}};
             Numbers right(size, 0u);
             std::vector<float> realRight(size, 0.0f);
-            for (int i = 0; i < count; ++i) {
-                const int read = way == k::reachOffset    ? i + offset
-                                 : way == k::reachAt      ? 3 * i + offset
-                                 : way == k::reachUniform ? offset
-                                                          : i;
-                const int written = way == k::reachStoreOffset ? i + offset
-                                    : way == k::reachStoreAt   ? 3 * i + offset
-                                                               : i;
-                const bool isInside = read >= 0 && read < size;
-                if (written < 0 || written >= size) continue;
-                right[size_t(written)] = isInside ? source[size_t(read)] : 0u;
-                realRight[size_t(written)] = isInside ? reals[size_t(read)] : 0.0f;
-            }
+            for (int i = 0; i < count; ++i) expect(way, i, offset, source, reals, right, realRight);
             runner::PlanInputs inputs;
             inputs.buffers = {{"source", sharedBytes(source)},
                               {"reals", sharedBytes(reals)},

@@ -113,7 +113,7 @@ inline Result<> validatePass(const Plan& plan, const Pass& pass, std::vector<boo
         if (b.access == Access::write) writes.insert(b.resource);
     }
     for (int r : writes) {
-        if (read.contains(r))
+        if (read.contains(r) && (!pass.readsElsewhere || isImage(plan.resources[size_t(r)].kind)))
             return invalidArgument(what + " reads and writes " + plan.resources[size_t(r)].name);
         written[size_t(r)] = true;
     }

@@ -7,6 +7,8 @@ struct Item {
 };
 
 inline Int indexOf(Item item) { return laneIndex() + Int(item.first); }
+// Of the item's group of 16: the same for all lanes.
+inline int groupOf(Item item) { return item.first / 16; }
 
 // A pixel's place in a buffer that holds rows of so many numbers, one behind the other.
 inline Item itemOf(Pixel p, int width) { return {p.y * width + p.x, p.y * width + width}; }
@@ -60,15 +62,29 @@ typename NumberBuffer<T>::Lanes loadItem(const NumberBuffer<T>& v, Item item) {
     return loadOffset(v, item, 0);
 }
 
-// Any number, lane by lane; zero outside.
-template <class T>
-typename NumberBuffer<T>::Lanes loadAt(const NumberBuffer<T>& v, Int index) {
-    alignas(64) int32_t at[laneCount];
-    alignas(64) typename NumberBuffer<T>::Number lanes[laneCount];
-    storeLanes(at, index);
-    for (int i = 0; i < laneCount; ++i)
-        lanes[i] = at[i] >= 0 && at[i] < v.count ? v.data[at[i]] : typename NumberBuffer<T>::Number(0);
-    return loadLanes(lanes);
+// Any number; zero outside. Moved as bits.
+inline Real loadAt(const NumberBuffer<const float>& v, Int index) {
+    return realOfBits(loadIndexed(reinterpret_cast<const int32_t*>(v.data), index, v.count));
+}
+inline Int loadAt(const NumberBuffer<const int32_t>& v, Int index) {
+    return loadIndexed(v.data, index, v.count);
+}
+inline UInt loadAt(const NumberBuffer<const uint32_t>& v, Int index) {
+    return toUInt(loadIndexed(reinterpret_cast<const int32_t*>(v.data), index, v.count));
+}
+
+// The four numbers from 4 * index on, of a buffer that holds floats by fours; zero outside.
+inline Vec4 loadFour(const NumberBuffer<const float>& v, Int index) {
+    const int fours = v.count / 4;
+    Real result[4];
+    if (fours > 0 && allBelow(index, fours)) {
+        loadFours(v.data, index, result);
+    } else {
+        const Mask inside = !(index < Int(0)) && index < Int(fours);
+        const Int first = select(inside, index << 2, Int(-1));
+        for (int c = 0; c < 4; ++c) result[c] = loadAt(v, select(inside, first + Int(c), Int(-1)));
+    }
+    return Vec4(result[0], result[1], result[2], result[3]);
 }
 
 // Writes the number at item + offset, for items that exist; nothing outside.
@@ -98,4 +114,16 @@ void storeAt(const NumberBuffer<T>& v, Item item, Int index, typename NumberBuff
     storeLanes(lanes, x);
     for (int i = 0; i < laneCount && item.first + i < item.count; ++i)
         if (at[i] >= 0 && at[i] < v.count) v.data[at[i]] = lanes[i];
+}
+
+// Writes the four numbers from 4 * index on of each lane whose item exists; nothing outside. No two lanes write the same.
+inline void storeFour(const NumberBuffer<float>& v, Item item, Int index, const Vec4& x) {
+    alignas(64) int32_t at[laneCount];
+    alignas(64) float lanes[4][laneCount];
+    storeLanes(at, index);
+    for (int c = 0; c < 4; ++c) storeLanes(lanes[c], x[c]);
+    const int fours = v.count / 4;
+    for (int i = 0; i < laneCount && item.first + i < item.count; ++i)
+        if (at[i] >= 0 && at[i] < fours)
+            for (int c = 0; c < 4; ++c) v.data[4 * ptrdiff_t(at[i]) + c] = lanes[c][i];
 }

@@ -22,6 +22,8 @@ inline uint16_t floatToHalf(float f) {
 #include "rebound/kernel/buffers_cpu.h"
 
 #define RB_FUNCTION inline
+// Behind the parameters of a function that uses the buffers, features and constants of the kernel that includes it.
+#define RB_OF_KERNEL const
 // Before a loop of a few rounds over an array: the array then lives in registers.
 #if defined(__clang__)
 #define RB_UNROLL _Pragma("clang loop unroll(full)")

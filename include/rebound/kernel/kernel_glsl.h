@@ -14,6 +14,7 @@
 #define SparsePixel ivec2
 #define Item int
 #define RB_FUNCTION
+#define RB_OF_KERNEL
 #define RB_UNROLL
 #define RB_TEXTURE_ARGUMENT highp sampler2D
 
@@ -92,6 +93,7 @@ vec3 select(bool m, vec3 a, vec3 b) { return m ? a : b; }
 vec4 select(bool m, vec4 a, vec4 b) { return m ? a : b; }
 uint select(bool m, uint a, uint b) { return m ? a : b; }
 bool anyLane(bool m) { return m; }
+int firstLane(bool m, int a) { return a; }
 float inverseSqrt(float x) { return inversesqrt(x); }
 float reciprocal(float x) { return 1.0f / x; }
 float roughReciprocal(float x) { return 1.0f / x; }
@@ -158,12 +160,28 @@ vec4 fetchMagnified(highp sampler2D t, ivec2 p, ivec2 bias, int shift, ivec2 o) 
 
 // Macros, since GLSL passes no buffers to functions.
 int indexOf(int item) { return item; }
+int groupOf(int item) { return item / 16; }
 int itemOf(ivec2 p, int width) { return p.y * width + p.x; }
 bool isElement(int index, int count) { return index >= 0 && index < count; }
 #define loadAt(values, index) (isElement(index, values.length()) ? values[index] : values##Zero)
 #define loadOffset(values, item, offset) loadAt(values, (item) + (offset))
 #define loadItem(values, item) loadAt(values, item)
+#define loadFour(values, index)                                                                              \
+    (isElement(index, values.length() / 4) ? vec4(values[4 * (index)], values[4 * (index) + 1],              \
+                                                  values[4 * (index) + 2], values[4 * (index) + 3])          \
+                                           : vec4(0.0f))
 #define storeAt(values, item, index, x)                                                                      \
     if (isElement(index, values.length())) values[index] = x
 #define storeOffset(values, item, offset, x) storeAt(values, item, (item) + (offset), x)
 #define storeItem(values, item, x) storeAt(values, item, item, x)
+#define storeFour(values, item, index, numbers)                                                              \
+    {                                                                                                        \
+        int fourAt = (index);                                                                                \
+        vec4 fourStored = (numbers);                                                                         \
+        if (isElement(fourAt, values.length() / 4)) {                                                        \
+            values[4 * fourAt] = fourStored.x;                                                               \
+            values[4 * fourAt + 1] = fourStored.y;                                                           \
+            values[4 * fourAt + 2] = fourStored.z;                                                           \
+            values[4 * fourAt + 3] = fourStored.w;                                                           \
+        }                                                                                                    \
+    }

@@ -26,7 +26,26 @@ RB_ITEM_MAIN(item, k.count.x)
         x = UInt(source[k.count.y]);
         r = Real(reals[k.count.y]);
     }
-    if (way == reachStoreOffset) {
+    if (way == reachFour) {
+        Vec4 four = loadFour(reals, index + Int(k.count.y));
+        r = four.x + four.y * 2.0f + four.z * 4.0f + four.w * 8.0f;
+    }
+    if (way == reachFirst) {
+        // The waterfall: lanes of one number are treated together, with uniform loads.
+        Int group = (index * 5) & Int(3);
+        Mask waiting = index < Int(k.count.x);
+        while (anyLane(waiting)) {
+            int chosen = firstLane(waiting, group);
+            Mask here = waiting && group == Int(chosen);
+            x = select(here, UInt(source[chosen]), x);
+            r = select(here, Real(reals[chosen + 1]), r);
+            waiting = waiting && !here;
+        }
+    }
+    if (way == reachStoreFour) {
+        storeItem(result, item, x);
+        storeFour(realResult, item, index + Int(k.count.y), Vec4(r, r + 1.0f, r + 2.0f, r + 3.0f));
+    } else if (way == reachStoreOffset) {
         storeOffset(result, item, k.count.y, x);
         storeOffset(realResult, item, k.count.y, r);
     } else if (way == reachStoreAt) {

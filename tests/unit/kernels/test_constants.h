@@ -143,10 +143,18 @@ const int reachAt = 2;
 const int reachUniform = 3;
 const int reachStoreOffset = 4;
 const int reachStoreAt = 5;
-const int reachCount = 6;
+const int reachFour = 6;
+const int reachStoreFour = 7;
+const int reachFirst = 8;
+const int reachCount = 9;
+
+// Modes of the kernel harmonics.
+const int harmonicsAlone = 0;
+const int harmonicsLobe = 1;
+const int harmonicsModeCount = 2;
 
 struct ItemConstants {
-    ivec4 count; // .x of items, .y offset [elements]
+    ivec4 count; // .x of items, .y offset or stride [elements]
 };
 
 // Of the made-up technique: sums over frames of what pixels hold.
