@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/bake/bake_scene.hpp"
+
+#include "bake_parts.hpp"
+#include "links.hpp"
+#include "receivers.hpp"
+
+#include "rebound/bake/packing.hpp"
+#include "rebound/bake/surfels.hpp"
+
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <new>
+
+namespace rebound {
+
+namespace {
+
+using namespace detail;
+
+uint32_t packPlace(glm::vec3 position) {
+    const glm::vec3 share = glm::clamp((position + 1.0f) / 3.0f, 0.0f, 1.0f);
+    const glm::uvec3 steps(glm::round(share * 1023.0f));
+    return steps.x | steps.y << 10 | steps.z << 20;
+}
+
+std::vector<uint32_t> packReceivers(const std::vector<Receiver>& receivers) {
+    std::vector<uint32_t> words;
+    words.reserve(4 * receivers.size());
+    for (const Receiver& receiver : receivers) {
+        words.push_back(packPlace(receiver.position));
+        words.push_back(packOctahedral(receiver.normal));
+        for (size_t half = 0; half < 2; ++half) {
+            uint32_t word = 0;
+            for (size_t c = 0; c < 4; ++c)
+                word |= uint32_t(std::lround(receiver.visibility[4 * half + c] * 255.0f)) << (8 * c);
+            words.push_back(word);
+        }
+    }
+    return words;
+}
+
+std::vector<uint32_t> packCells(const std::vector<Cell>& cells, const std::vector<uint32_t>& firstReceiver) {
+    std::vector<uint32_t> words;
+    words.reserve(12 * cells.size());
+    for (size_t i = 0; i < cells.size(); ++i) {
+        words.insert(words.end(), cells[i].caches.begin(), cells[i].caches.end());
+        words.insert(words.end(),
+                     {cells[i].key, firstReceiver[i], firstReceiver[i + 1] - firstReceiver[i], 0u});
+    }
+    return words;
+}
+
+std::vector<uint32_t> packPlaces(const std::vector<glm::vec3>& places) {
+    std::vector<uint32_t> words;
+    words.reserve(4 * places.size());
+    for (const glm::vec3 place : places)
+        for (int k = 0; k < 4; ++k) words.push_back(k < 3 ? std::bit_cast<uint32_t>(place[k]) : 0u);
+    return words;
+}
+
+using Sections = std::array<std::vector<uint32_t>, bakeSectionCount>;
+
+Bake assemble(const BakeLayout& layout, Sections&& parts) {
+    auto sections = std::make_shared<Sections>(std::move(parts));
+    Bake bake;
+    bake.layout = layout;
+    for (size_t i = 0; i < sections->size(); ++i) bake.sections[i] = (*sections)[i];
+    bake.storage = std::move(sections);
+    return bake;
+}
+
+std::vector<uint32_t> emittersOf(const SurfelTree& tree, const std::vector<Surfel>& surfels) {
+    std::vector<uint32_t> leaves;
+    for (uint32_t leaf = 0; leaf < tree.order.size(); ++leaf)
+        if (glm::any(glm::greaterThan(surfels[tree.order[leaf]].emission, glm::vec3(0.0f))))
+            leaves.push_back(leaf);
+    return leaves;
+}
+
+Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, const BakeSettings& settings,
+                       float gridShift) {
+    const auto report = [&](std::string_view what, double share) {
+        if (settings.progress) settings.progress(what, share);
+    };
+    report("surfels", 0.0);
+    auto surfels = placeSurfels(geometry, rays, settings);
+    if (!surfels) return surfels.error();
+    report("hierarchy", 0.0);
+    auto tree = buildSurfelTree(*surfels, settings.hierarchy, settings.threads);
+    if (!tree) return tree.error();
+
+    report("grid", 0.0);
+    const Surroundings around(geometry, rays);
+    const ReceivingSides receiving = findReceivingSides(geometry, rays, settings);
+    auto grid = chooseCells(geometry, receiving, settings, gridShift);
+    if (!grid) return grid.error();
+    report("caches", 0.0);
+    const std::vector<CachePlace> places = placeCaches(around, *grid, settings.threads);
+    const CellTable table =
+        tabulateCells(*grid, places, placeInLostCells(around, *grid, places, receiving.sides));
+    if (table.cells.empty())
+        return Error{ErrorCode::invalidData,
+                     "no place near the geometry's surfaces is outside of it; with a finer grid "
+                     "(settings.caches, settings.spacing) there may be"};
+    report("receivers", 0.0);
+    const Receivers receivers =
+        gatherReceivers(around, grid->lattice, table, receiving.sides, settings.threads);
+    LinkSections links = linkCaches(around, table.caches, *tree, emittersOf(*tree, *surfels), settings,
+                                    [&](double share) { report("links", share); });
+
+    BakeLayout layout;
+    setTree(layout, *tree);
+    layout.caches = uint32_t(table.caches.size());
+    layout.links = settings.links;
+    layout.bands = settings.bands;
+    layout.linkForm = settings.linkForm;
+    layout.origin = grid->lattice.origin;
+    layout.spacing = grid->lattice.spacing;
+    layout.bricks = table.bricks;
+    layout.filledBricks = table.filledBricks;
+    layout.cells = uint32_t(table.cells.size());
+    layout.receivers = uint32_t(receivers.receivers.size());
+    layout.geometry = fingerprintOf(geometry);
+    // In the order of BakeSection.
+    return assemble(layout, {packSurfels(*tree, *surfels), std::move(tree->terms), std::move(links.nodes),
+                             std::move(links.factors), std::move(links.shapes), packPlaces(table.caches),
+                             table.brickOf, table.cellOf, packCells(table.cells, receivers.first),
+                             packReceivers(receivers.receivers)});
+}
+
+} // namespace
+
+Result<Bake> detail::bakeScene(const BakeGeometry& geometry, const RayCaster& rays,
+                               const BakeSettings& settings, float gridShift) {
+    if (auto valid = validate(settings); !valid) return valid.error();
+    if (auto valid = validate(geometry); !valid) return valid.error();
+    try {
+        return bakeValid(geometry, rays, settings, gridShift);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::outOfMemory, "memory is too short for a bake of " +
+                                                 std::to_string(settings.surfels) + " surfels and " +
+                                                 std::to_string(settings.caches) + " caches of " +
+                                                 std::to_string(settings.links) + " links"};
+    }
+}
+
+Result<Bake> bakeScene(const BakeGeometry& geometry, const RayCaster& rays, const BakeSettings& settings) {
+    return detail::bakeScene(geometry, rays, settings, 0.0f);
+}
+
+} // namespace rebound

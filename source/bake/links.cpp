@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "links.hpp"
+
+#include "link_cut.hpp"
+#include "parallel.hpp"
+
+#include "rebound/bake/packing.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <mutex>
+
+namespace rebound::detail {
+
+namespace {
+
+// c_i over c_0 and its largest possible magnitude, as a signed number of so many bits.
+uint32_t quantize(float c, float c0, int harmonic, uint32_t bits) {
+    const float band = harmonic < 4 ? 1.0f : harmonic < 9 ? 2.0f : 3.0f;
+    const float largest = float((1 << (bits - 1)) - 1);
+    const float share = std::clamp(c / (c0 * std::sqrt(2.0f * band + 1.0f)), -1.0f, 1.0f);
+    return uint32_t(int32_t(std::lround(share * largest))) & ((1u << bits) - 1u);
+}
+
+uint32_t shapeWord(const std::array<float, 16>& c, const BakeLayout& layout, uint32_t word) {
+    if (layout.linkForm == LinkForm::direction) {
+        const glm::vec3 mean(c[3], c[1], c[2]); // band 1: x, y and z
+        const float length = glm::length(mean);
+        return packOctahedral(length > 0.0f ? mean / length : glm::vec3(0, 0, 1));
+    }
+    const uint32_t bits = layout.bands == 2 ? 10 : 8, ofWord = 32 / bits;
+    uint32_t packed = 0;
+    for (uint32_t i = 0; i < ofWord; ++i)
+        if (const uint32_t harmonic = 1 + word * ofWord + i; harmonic < layout.coefficients())
+            packed |= quantize(c[harmonic], c[0], int(harmonic), bits) << (bits * i);
+    return packed;
+}
+
+} // namespace
+
+LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> caches, const SurfelTree& tree,
+                        std::span<const uint32_t> emitters, const BakeSettings& settings,
+                        const std::function<void(double)>& progress) {
+    BakeLayout layout;
+    setTree(layout, tree);
+    layout.caches = uint32_t(caches.size());
+    layout.links = settings.links;
+    layout.bands = settings.bands;
+    layout.linkForm = settings.linkForm;
+    LinkSections sections;
+    sections.nodes.assign(sizeOf(layout, BakeSection::linkNodes), tree.emptyNode());
+    sections.factors.assign(sizeOf(layout, BakeSection::linkFactors), 0);
+    sections.shapes.assign(sizeOf(layout, BakeSection::linkShapes), 0);
+
+    const SurfelLookup lookup(std::span(tree.nodes).first(layout.surfels));
+    std::mutex mutex;
+    size_t done = 0;
+    parallelFor(
+        caches.size(), settings.threads,
+        [&](size_t first, size_t last) {
+            LinkCutter cutter(around, tree, lookup, emitters, settings);
+            for (size_t cache = first; cache < last; ++cache) {
+                const std::vector<SeenSender>& senders = cutter.cut(caches[cache], uint32_t(cache));
+                for (size_t j = 0; j < senders.size(); ++j) {
+                    const SeenSender& sender = senders[j];
+                    const size_t at = BakeLayout::ofCache(cache, j, layout.links);
+                    sections.nodes[at] = sender.node;
+                    sections.factors[at] =
+                        std::bit_cast<uint32_t>(sender.coefficients[0] / tree.nodes[sender.node].area);
+                    const size_t words = layout.shapeWords();
+                    for (uint32_t w = 0; w < words; ++w)
+                        sections.shapes[BakeLayout::ofCache(cache, j * words + w, layout.links * words)] =
+                            shapeWord(sender.coefficients, layout, w);
+                }
+            }
+            const std::lock_guard lock(mutex);
+            done += last - first;
+            if (progress) progress(double(done) / double(caches.size()));
+        },
+        32);
+    return sections;
+}
+
+} // namespace rebound::detail
