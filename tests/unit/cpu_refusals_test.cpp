@@ -44,7 +44,7 @@ TEST_CASE("plans that a CPU device refuses") {
     checkRefusedPlan("slot 9", invalidArgument, [](Plan& p) { p.passes[0].bindings[0].slot = 9; });
     checkRefusedPlan("leaves slot 1 of access unbound", invalidArgument,
                      [](Plan& p) { p.passes[1].bindings.erase(p.passes[1].bindings.begin() + 1); });
-    checkRefusedPlan("feature 0 of access to 10", invalidArgument,
+    checkRefusedPlan("feature 0 of access to " + std::to_string(accessCount), invalidArgument,
                      [](Plan& p) { p.passes[1].features = {accessCount}; });
     checkRefusedPlan("feature 0 of access to -1", invalidArgument,
                      [](Plan& p) { p.passes[1].features = {-1}; });

@@ -3,9 +3,6 @@
 #ifndef REBOUND_GBUFFER_H
 #define REBOUND_GBUFFER_H
 
-// Whether every component is a number.
-RB_FUNCTION Mask isFinite3(Vec3 v) { return isFinite(v.x) && isFinite(v.y) && isFinite(v.z); }
-
 // The surface behind stored depth and normal; empty where depth says so, where it is not in front of the eye by 1e-6 to
 // 1e7 m, and where depth or normal is not a number or the normal has no direction.
 RB_FUNCTION Surface surfaceOf(CameraConstants camera, Vec2 pixelCoordinate, Real storedDepth,

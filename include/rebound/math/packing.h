@@ -10,6 +10,8 @@
 #ifndef REBOUND_PACKING_H
 #define REBOUND_PACKING_H
 
+#include "rebound/math/radiance.h"
+
 struct Surface {
     Vec3 normal;     // unit, or zero where there is no surface
     Real z;          // distance along the viewing axis [m]; 0: no surface
@@ -22,9 +24,6 @@ struct LevelTexel {
     Real senderZ;    // distance along the viewing axis at which it sends [m]
     Vec3 radiance;   // [W m^-2 sr^-1]
 };
-
-// Half floats end there; brighter surfaces count as that bright. [W m^-2 sr^-1]
-const float maximumRadiance = 65504.0f;
 
 RB_FUNCTION Vec4 packSurface(Surface s) {
     Vec3 n = s.normal * s.areaOverPi;

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Definitions of illuminance_composition.hpp.
+
+#include <vector>
+
+namespace rebound {
+namespace detail {
+
+#define RB_FUNCTION inline
+#include "rebound/math/cache_layout.h"
+#undef RB_FUNCTION
+
+inline ViewToWorldConstants viewToWorld(const Camera& camera, const GBufferConventions& conventions) {
+    glm::dmat4 toEngine(1.0);
+    toEngine[2][2] = conventions.handedness == Handedness::right ? -1.0 : 1.0;
+    const glm::dmat4 rows = glm::transpose(glm::inverse(glm::dmat4(camera.view)) * toEngine);
+    return {glm::vec4(rows[0]), glm::vec4(rows[1]), glm::vec4(rows[2])};
+}
+
+inline Result<> validate(const IlluminanceCompositionSettings& s) {
+    if (!isValidExtent(s.resolution))
+        return invalidArgument("settings.resolution is " + toText(s.resolution) + "; 1x1 to " +
+                               toText({maximumExtent, maximumExtent}) + " was expected");
+    if (auto layout = rebound::validate(s.bake); !layout)
+        return Error{layout.error().code, "settings.bake: " + layout.error().message};
+    for (int i = 0; i < bakeSectionCount; ++i) {
+        const BakeSection section{i};
+        if (const size_t bytes = 4 * sizeOf(s.bake, section); bytes > maximumBufferSize)
+            return invalidArgument(std::string("settings.bake has ") + std::to_string(bytes) + " bytes of " +
+                                   name(section) + "; at most " + std::to_string(maximumBufferSize) +
+                                   " were expected");
+    }
+    if (!s.writeIndirect && !s.compose)
+        return invalidArgument(
+            "settings.writeIndirect and settings.compose are both false; one output was expected");
+    return {};
+}
+
+// Builds the plan pass by pass, in the order of the paper's pipeline (fig. 2).
+class IlluminanceCompositionPlanner {
+public:
+    explicit IlluminanceCompositionPlanner(const IlluminanceCompositionSettings& s)
+        : settings(s), bake(s.bake) {}
+
+    Plan build() {
+        plan.technique = "illuminance_composition";
+        addBuffers();
+        addLightSurfels();
+        for (uint32_t stage = 0; stage < bake.stages; ++stage) addPull(stage);
+        addLightCaches();
+        addShade();
+        return std::move(plan);
+    }
+
+private:
+    const IlluminanceCompositionSettings& settings;
+    const BakeLayout& bake;
+    Plan plan;
+    std::array<ResourceIndex, bakeSectionCount> sections{};
+    ResourceIndex surfelLight = -1, nodes = -1, caches = -1, grid = -1;
+
+    ResourceIndex section(BakeSection s) const { return sections[size_t(s)]; }
+    int bandsFeature() const { return int(bake.bands) - 2; }
+
+    ResourceIndex addBuffer(const char* name, ResourceKind kind, Format format, size_t numbers) {
+        return plan.add({name, kind, format, 1, {}, {}, 4 * numbers});
+    }
+    template <class T>
+    ResourceIndex addConstants(const std::string& label, const T& constants) {
+        return plan.add(bufferResource(label + " constants", std::vector<T>{constants}));
+    }
+    ResourceIndex addImage(const char* name, ResourceKind kind, Format format, int channels) {
+        return plan.add({name, kind, format, channels, settings.resolution, {}, 0});
+    }
+
+    void addBuffers() {
+        for (int i = 0; i < bakeSectionCount; ++i) {
+            const BakeSection s{i};
+            const bool isFloats = s == BakeSection::linkFactors || s == BakeSection::places;
+            const size_t numbers = sizeOf(bake, s);
+            // A kernel's slot takes no empty buffer: nobody reads the number that stands there instead.
+            sections[size_t(i)] = numbers > 0 ? addBuffer(name(s), ResourceKind::inputBuffer,
+                                                          isFloats ? Format::r32f : Format::r32ui, numbers)
+                                              : plan.add(bufferResource(name(s), std::vector<uint32_t>{0}));
+        }
+        surfelLight = addBuffer("surfel light", ResourceKind::inputBuffer, Format::r32f,
+                                3 * size_t(BakeLayout::stride(bake.surfels)));
+        nodes = addBuffer("nodes", ResourceKind::transientBuffer, Format::r32f, 4 * (size_t(bake.nodes) + 1));
+        caches = addBuffer("caches",
+                           settings.bounces ? ResourceKind::persistentBuffer : ResourceKind::transientBuffer,
+                           Format::r32f, size_t(bake.caches) * size_t(floatsOfCache(bandsFeature())));
+        const glm::ivec3 bricks(bake.bricks);
+        grid = addConstants(
+            "grid", CacheGridConstants{glm::vec4(bake.origin, 1.0f / bake.spacing), glm::ivec4(bricks, 0)});
+    }
+
+    // What irradianceOfGrid() reads.
+    void bindGrid(Pass& pass) const {
+        pass.bindings.insert(pass.bindings.end(), {{4, caches},
+                                                   {5, section(BakeSection::places)},
+                                                   {6, section(BakeSection::bricks)},
+                                                   {7, section(BakeSection::brickCells)},
+                                                   {8, section(BakeSection::cells)},
+                                                   {9, section(BakeSection::receivers)},
+                                                   {10, grid}});
+    }
+
+    void addLightSurfels() {
+        const LightSurfelsConstants k{
+            {int(bake.surfels), int(BakeLayout::stride(bake.surfels)), int(bake.nodes), 0}};
+        Pass pass{"light surfels",
+                  "illuminance_composition/light_surfels",
+                  {settings.emission ? withEmission : withoutEmission},
+                  {{0, section(BakeSection::surfels)},
+                   {1, surfelLight},
+                   {2, nodes, Access::write},
+                   {3, addConstants("light surfels", k)}},
+                  {},
+                  int(bake.surfels)};
+        if (settings.bounces) {
+            pass.kernel = "illuminance_composition/light_surfels_again";
+            pass.features.push_back(bandsFeature());
+            bindGrid(pass);
+        }
+        plan.passes.push_back(pass);
+    }
+
+    void addPull(uint32_t number) {
+        const BakeStage& stage = bake.stage[number];
+        const std::string label = "pull stage " + std::to_string(number);
+        const PullConstants k{{int(stage.nodes), int(BakeLayout::stride(stage.nodes)), int(stage.firstNode),
+                               int(stage.firstTerm)},
+                              {int(stage.terms), 0, 0, 0}};
+        Pass pass{
+            label,
+            "illuminance_composition/pull",
+            {},
+            {{0, section(BakeSection::terms)}, {1, nodes}, {2, nodes, Access::write}, {3, addConstants(label, k)}},
+            {},
+            int(stage.nodes)};
+        pass.readsElsewhere = true; // a stage sums up nodes of earlier ones
+        plan.passes.push_back(pass);
+    }
+
+    void addLightCaches() {
+        const LightCachesConstants k{{int(bake.caches), int(bake.links), 0, 0}};
+        plan.passes.push_back(
+            {"light caches",
+             "illuminance_composition/light_caches",
+             {bandsFeature(), bake.linkForm == LinkForm::direction ? directionLinks : coefficientLinks},
+             {{0, nodes},
+              {1, section(BakeSection::linkNodes)},
+              {2, section(BakeSection::linkFactors)},
+              {3, section(BakeSection::linkShapes)},
+              {4, caches, Access::write},
+              {5, addConstants("light caches", k)}},
+             {},
+             int(bake.caches)});
+    }
+
+    void addShade() {
+        const Extent2D e = settings.resolution;
+        const bool isOrthographic = settings.conventions.projection == Projection::orthographic;
+        Pass pass{"shade",
+                  "illuminance_composition/shade",
+                  {isOrthographic ? orthographicProjection : perspectiveProjection, bandsFeature()},
+                  {},
+                  e};
+        const auto constants = [&](const char* name, size_t size) {
+            return plan.add({name, ResourceKind::frameConstants, {}, 1, {}, {}, size});
+        };
+        pass.bindings = {{0, addImage("depth", ResourceKind::input, Format::r32f, 1)},
+                         {1, addImage("normal", ResourceKind::input, Format::rgba16f, 3)},
+                         {2, constants("camera", sizeof(CameraConstants))},
+                         {3, constants("view to world", sizeof(ViewToWorldConstants))},
+                         {11, addConstants("shade", ShadeConstants{{e.width, e.height, 0, 0}})}};
+        bindGrid(pass);
+        if (settings.writeIndirect)
+            pass.bindings.push_back(
+                {12, addImage("indirect", ResourceKind::output, Format::rgba16f, 3), Access::write});
+        if (settings.compose) {
+            pass.label = "shade and compose";
+            pass.kernel = settings.writeIndirect ? "illuminance_composition/shade_both"
+                                                 : "illuminance_composition/shade_compose";
+            pass.bindings.insert(
+                pass.bindings.end(),
+                {{13, addImage("albedo", ResourceKind::input, Format::rgba16f, 3)},
+                 {14, addImage("lit", ResourceKind::input, Format::rgba16f, 3)},
+                 {15, addImage("composed", ResourceKind::output, Format::rgba16f, 3), Access::write}});
+        }
+        plan.passes.push_back(pass);
+    }
+};
+
+} // namespace detail
+
+inline Result<Plan> planIlluminanceComposition(const IlluminanceCompositionSettings& settings) {
+    if (auto valid = detail::validate(settings); !valid) return valid.error();
+    return detail::IlluminanceCompositionPlanner(settings).build();
+}
+
+} // namespace rebound

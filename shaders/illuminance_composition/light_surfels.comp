@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/kernel/kernel.h"
+#include "rebound/techniques/illuminance_composition_constants.h"
+#include "rebound/math/radiance.h"
+#include "rebound/math/bake_packing.h"
+
+// What surfels send of direct light: the leaves of the tree.            [Jendersie, Kuri, Grosch, fig. 2, step 2]
+RB_ITEM_KERNEL(LightSurfels)
+RB_FEATURE(0, emission, 2)
+RB_VALUES(0, uint, surfels)
+RB_VALUES(1, float, surfelLight)
+RB_OUTPUT_VALUES(2, float, nodes)
+RB_CONSTANTS(3, LightSurfelsConstants, k)
+#include "rebound/math/surfel_light.h"
+RB_ITEM_MAIN(item, k.counts.x)
+    sendLight(item, Vec3(0.0f));
+RB_END_KERNEL
