@@ -103,11 +103,12 @@ std::vector<TechniqueOptions> configurationsOf(const TechniqueOptions& options) 
 }
 
 Result<std::vector<Run>> prepareRuns(const std::vector<TechniqueOptions>& configurations,
-                                     std::vector<Preparation>& preparations, const SourcedFrame& source) {
+                                     std::vector<Preparation>& preparations, const SourcedFrame& source,
+                                     int threads) {
     std::vector<Run> runs;
     for (const TechniqueOptions& options : configurations)
         for (Preparation& preparation : preparations) {
-            auto configured = configure(options, techniques::viewOf(source.frame));
+            auto configured = configureFor(source, options, threads);
             if (!configured) return configured.error();
             auto pipeline = measure::FramePipeline::create(source.frame, *std::move(configured),
                                                            *preparation.backend, preparation.precision);
@@ -197,7 +198,7 @@ Result<> bench(const BenchOptions& options) {
     if (!source) return source.error();
     const auto notes = notesOf(*source, options.device.threads);
     if (!notes) return notes.error();
-    auto runs = prepareRuns(configurations, *preparations, *source);
+    auto runs = prepareRuns(configurations, *preparations, *source, options.device.threads);
     if (!runs) return runs.error();
     if (auto measured = measureAll(*runs, options); !measured) return measured;
     if (options.json) std::cout << toText(toJson(*source, *runs, options));

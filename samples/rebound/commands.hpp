@@ -30,6 +30,7 @@ Command addExplainCommand(CLI::App& program);
 Command addRaysCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
 Command addChartCommand(CLI::App& program);
+Command addBakeCommand(CLI::App& program);
 Command addCheckCommand(CLI::App& program);
 
 } // namespace rebound::cli

@@ -53,7 +53,7 @@ std::string tableOf(const Explanation& explanation) {
     for (const Cause& cause : explanation.causes) addRow(text, cause.name, cause, percent(cause.part));
     text += std::string(60, '-') + "\n";
     addRow(text, explanation.whole.name, explanation.whole, percent(explanation.whole.part));
-    addRow(text, explanation.screenLimit.name, explanation.screenLimit, "");
+    if (explanation.screenLimit) addRow(text, explanation.screenLimit->name, *explanation.screenLimit, "");
     return text + formatted("the truth's own noise is at most %.2f %% of its mean, root mean square\n",
                             100.0 * explanation.noise);
 }
@@ -80,7 +80,7 @@ Json toJson(const ExplainCommandOptions& options, const lab::CameraView& camera,
     json["causes"] = Json::array();
     for (const Cause& cause : explanation.causes) json["causes"].push_back(toJson(cause));
     json["whole"] = toJson(explanation.whole);
-    json["screen_limit"] = toJson(explanation.screenLimit);
+    if (explanation.screenLimit) json["screen_limit"] = toJson(*explanation.screenLimit);
     json["noise"] = explanation.noise;
     return json;
 }
@@ -100,7 +100,7 @@ lab::Picture sheetOf(const Explanation& explanation, double scale, const lab::To
     };
     add(explanation.whole);
     for (const Cause& cause : explanation.causes) add(cause);
-    add(explanation.screenLimit);
+    if (explanation.screenLimit) add(*explanation.screenLimit);
     return lab::contactSheet(pictures, 3);
 }
 
@@ -109,7 +109,8 @@ Result<> writePictures(const ExplainCommandOptions& options, const Explanation& 
     // Differences beyond three times the whole error's are rare, and shown in the strongest colour.
     const double scale = 3.0 * explanation.whole.rms * explanation.truthMean;
     const lab::ToneCurve curve = lab::automaticToneCurve(explanation.truth);
-    std::vector<const Cause*> causes = {&explanation.whole, &explanation.screenLimit};
+    std::vector<const Cause*> causes = {&explanation.whole};
+    if (explanation.screenLimit) causes.push_back(&*explanation.screenLimit);
     for (const Cause& cause : explanation.causes) causes.push_back(&cause);
     std::vector<OutputFile> files;
     for (const Cause* cause : causes)

@@ -33,7 +33,8 @@ Result<> renderInto(SourcedFrame& source, const SourceOptions& options, Extent2D
     auto frame = lab::renderFrame(view->scene, view->camera, frameOptions);
     if (!frame) return frame.error();
     source.frame = *std::move(frame);
-    source.notes = std::move(view->scene.notes);
+    source.notes = view->scene.notes;
+    source.scene = std::make_shared<const lab::Scene>(std::move(view->scene));
     return {};
 }
 
@@ -95,6 +96,18 @@ Result<std::vector<std::string>> notesOf(const SourcedFrame& source, int threads
     if (!findings) return findings.error();
     for (const InputFinding& finding : *findings) notes.push_back(finding.sentence);
     return notes;
+}
+
+Result<techniques::Configured> configureFor(const SourcedFrame& source, const TechniqueOptions& options,
+                                            int threads) {
+    auto configured = configure(options, techniques::viewOf(source.frame));
+    if (!configured) return configured;
+    ProgressLine line("baking");
+    const auto progress = [&line](std::string_view step, double share) {
+        line.describe("baking: " + std::string(step));
+        line.update(share);
+    };
+    return techniques::completed(*std::move(configured), {source.scene, threads, progress}, source.name);
 }
 
 void printNotes(const std::vector<std::string>& notes, std::ostream& stream) {

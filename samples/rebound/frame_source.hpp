@@ -6,6 +6,7 @@
 #include "options.hpp"
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct SourcedFrame {
     lab::Frame frame;
     std::string name; // the scene or the folder, as given
     bool isStored = false;
+    std::shared_ptr<const lab::Scene> scene; // that was rendered; none of stored frames
     std::vector<std::string> notes; // what was converted, taken for something else or left out of its files
 };
 
@@ -41,6 +43,9 @@ Result<> checkPixels(const SourcedFrame&);
 
 // The frame's notes; of a stored one also what the input check finds.
 Result<std::vector<std::string>> notesOf(const SourcedFrame&, int threads);
+
+// The technique that was asked for, with its settings, in the frame's surroundings.
+Result<techniques::Configured> configureFor(const SourcedFrame&, const TechniqueOptions&, int threads);
 
 // "note: ", a line each.
 void printNotes(const std::vector<std::string>&, std::ostream&);

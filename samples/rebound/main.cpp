@@ -38,7 +38,8 @@ int runProgram(int argc, char** argv) {
     for (auto add :
          {rebound::cli::addRenderCommand, rebound::cli::addBenchCommand, rebound::cli::addPlanCommand,
           rebound::cli::addConformCommand, rebound::cli::addCompareCommand, rebound::cli::addExplainCommand,
-          rebound::cli::addRaysCommand, rebound::cli::addChartCommand, rebound::cli::addCheckCommand}) {
+          rebound::cli::addRaysCommand, rebound::cli::addChartCommand, rebound::cli::addCheckCommand,
+          rebound::cli::addBakeCommand}) {
         auto command = add(program);
         commands.emplace_back(program.get_subcommands(nullptr).back(), std::move(command));
     }

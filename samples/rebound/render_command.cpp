@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -67,10 +68,11 @@ std::string timingTable(const std::vector<PassTiming>& timings, double frameMill
     return toTable({"pass", "ms"}, rows);
 }
 
-// The first frame after the plan was compiled pays for memory that was not touched before; the second is
-// measured.
+// The first frame after the plan was compiled pays for memory that was not touched before; one that follows is measured,
+// the last that the picture needs to settle.
 Result<double> runMeasured(measure::FramePipeline& pipeline) {
-    if (auto first = pipeline.run(); !first) return first;
+    for (int i = 1; i < std::max(2, pipeline.technique().settlingFrames); ++i)
+        if (auto before = pipeline.run(); !before) return before;
     return pipeline.run();
 }
 
@@ -88,7 +90,7 @@ Result<> render(const RenderOptions& options) {
     if (!source) return source.error();
     const auto notes = notesOf(*source, options.device.threads);
     if (!notes) return notes.error();
-    auto configured = configure(options.technique, techniques::viewOf(source->frame));
+    auto configured = configureFor(*source, options.technique, options.device.threads);
     if (!configured) return configured.error();
     auto pipeline = measure::FramePipeline::create(source->frame, *std::move(configured),
                                                    *preparation->backend, preparation->precision);
@@ -120,6 +122,7 @@ Result<> render(const RenderOptions& options) {
               << ", then 1 - exp(-x) and sRGB, in every picture\n";
     printLimited(*pipeline);
     printNotes(*notes, std::cout);
+    printNotes(pipeline->technique().notes, std::cout);
     std::cout << "written to " << options.out << ":";
     for (const OutputFile& file : files) std::cout << ' ' << file.name;
     std::cout << '\n';

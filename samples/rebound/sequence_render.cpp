@@ -94,7 +94,8 @@ private:
         };
         auto next = sequence.next(frameOptions);
         if (!next) return next.error();
-        frame = SourcedFrame{*std::move(next), source.scene, false, sequence.notes()};
+        frame = SourcedFrame{*std::move(next), source.scene, false, frame.scene, sequence.notes()};
+        if (!frame.scene) frame.scene = std::make_shared<const lab::Scene>(sequence.current());
         const auto nameOfImage = [&](const char* image) {
             return "'" + source.scene + "': the rendered " + image;
         };
@@ -115,7 +116,7 @@ private:
 
     Result<> handIn() {
         if (compiled) return compiled->setFrame(frame.frame);
-        auto configured = configure(technique, techniques::viewOf(frame.frame));
+        auto configured = configureFor(frame, technique, frameOptions.threads);
         if (!configured) return configured.error();
         auto created = measure::FramePipeline::create(frame.frame, *std::move(configured), *prepared.backend,
                                                       prepared.precision);

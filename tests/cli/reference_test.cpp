@@ -82,7 +82,7 @@ TEST_CASE("options that do not fit together are refused") {
         checkRefused(run("render builtin:cornell " + arguments, folder.path()), texts);
         CHECK(folder.count() == 0);
     };
-    refused("--technique photons", {"--technique is \"photons\"", "screen_indirect, reference"});
+    refused("--technique photons", {"--technique is \"photons\"", "screen_indirect, composition, reference"});
     refused("--spp 16", {"--spp was given, which --technique screen_indirect does not use"});
     refused("--technique reference --preset half-64",
             {"--preset was given, which --technique reference does not use"});

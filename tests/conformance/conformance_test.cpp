@@ -21,7 +21,7 @@ public:
     Result<lab::Image> read(const std::string& output) override { return plan->read(output); }
     Result<runner::Record> inspect(const runner::Record* replacement) override {
         auto record = plan->inspect(replacement);
-        if (record && replacement) record->at(2).at(0).image.at(3, 1)[0] += 1.0f;
+        if (record && replacement) record->at(1).at(0).image.at(3, 1)[0] += 1.0f;
         return record;
     }
 

@@ -33,7 +33,7 @@ TEST_CASE("where the camera sees all of a convex corner, nothing is hidden, off 
     CHECK(causeNamed(explanation, "hidden senders").rms == 0.0);
     CHECK(causeNamed(explanation, "senders off the screen").rms == 0.0);
     CHECK(causeNamed(explanation, "missing bounces").bias < -0.01);
-    CHECK(explanation.screenLimit.rms == 0.0);
+    CHECK(explanation.screenLimit->rms == 0.0);
     // The sum over all pixels against the integral: 64 paths' noise, and discs for squares where floor and
     // wall meet. The mean is that of 2000 pixels.
     CHECK(std::abs(causeNamed(explanation, "disc form factor").bias) < 0.02);
@@ -61,7 +61,7 @@ TEST_CASE(
     CHECK(explanation.whole.bias == doctest::Approx(-1.0));
     CHECK(causeNamed(explanation, "hidden senders").rms == 0.0);
     CHECK(causeNamed(explanation, "missing bounces").rms == 0.0);
-    CHECK(explanation.screenLimit.bias == doctest::Approx(-1.0));
+    CHECK(explanation.screenLimit->bias == doctest::Approx(-1.0));
 }
 
 TEST_CASE("more samples leave less of the error that samples cause, and a finer start less of its own") {

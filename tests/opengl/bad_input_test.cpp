@@ -113,7 +113,7 @@ TEST_CASE("plans that an OpenGL device refuses") {
                          [](Plan& p) { p.passes[0].bindings[0].slot = 99; });
         checkRefusedPlan(device, "leaves slot 1 of access unbound", invalidArgument,
                          [](Plan& p) { p.passes[1].bindings.erase(p.passes[1].bindings.begin() + 1); });
-        checkRefusedPlan(device, "feature 0 of access to 10", invalidArgument,
+        checkRefusedPlan(device, "feature 0 of access to " + std::to_string(accessCount), invalidArgument,
                          [](Plan& p) { p.passes[1].features = {accessCount}; });
         checkRefusedPlan(device, "which does not take it", invalidArgument,
                          [](Plan& p) { p.passes[1].bindings[0].resource = 0; });

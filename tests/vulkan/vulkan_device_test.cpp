@@ -100,7 +100,7 @@ TEST_CASE("plans that a device refuses") {
     checkRefusedPlan(device, invalidArgument, "slot 9", [](Plan& p) { p.passes[0].bindings[0].slot = 9; });
     checkRefusedPlan(device, invalidArgument, "leaves slot 1 of access unbound",
                      [](Plan& p) { p.passes[1].bindings.erase(p.passes[1].bindings.begin() + 1); });
-    checkRefusedPlan(device, invalidArgument, "feature 0 of access to 10",
+    checkRefusedPlan(device, invalidArgument, "feature 0 of access to " + std::to_string(accessCount),
                      [](Plan& p) { p.passes[1].features = {accessCount}; });
     checkRefusedPlan(device, invalidArgument, "which does not take it",
                      [](Plan& p) { p.passes[1].bindings[0].resource = 0; });

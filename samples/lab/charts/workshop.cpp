@@ -5,6 +5,8 @@
 #include "lab/measure/measurement.hpp"
 #include "lab/rays/frame_check.hpp"
 
+#include <algorithm>
+
 namespace rebound::charts {
 
 namespace {
@@ -60,9 +62,13 @@ Result<Truth> LabWorkshop::truth(const View& view, const lab::Progress& progress
 Result<Trial> LabWorkshop::measure(const View& view, const techniques::Configured& technique,
                                    ChartBackend& backend, const lab::Progress& progress) {
     if (auto prepared = prepareFrame(view, {}); !prepared) return prepared.error();
-    auto pipeline = measure::FramePipeline::create(frame, technique, *backend.backend, precision);
+    auto whole = techniques::completed(technique, {view.world, 0, {}}, view.label);
+    if (!whole) return whole.error();
+    auto pipeline = measure::FramePipeline::create(frame, *std::move(whole), *backend.backend, precision);
     if (!pipeline) return pipeline.error();
-    auto measured = measure::measureFrames(*pipeline, {sweep.warmUp, sweep.frames, progress});
+    auto measured =
+        measure::measureFrames(*pipeline, {std::max(sweep.warmUp, pipeline->technique().settlingFrames - 1),
+                                           sweep.frames, progress});
     if (!measured) return measured.error();
     auto light = pipeline->indirect();
     if (!light) return light.error();

@@ -113,14 +113,17 @@ Result<Case> sceneCase(const std::string& name, const techniques::Technique& tec
     if (!frame) return frame.error();
     auto configured = technique.parse(draft, techniques::viewOf(*frame), techniques::Spelling::options);
     if (!configured) return configured.error();
+    auto whole = techniques::completed(*std::move(configured),
+                                       {std::make_shared<const lab::Scene>(*std::move(scene)), 0, {}}, name);
+    if (!whole) return whole.error();
     const lab::Image outgoing = lab::outgoingRadiance(*frame);
     scaleLengths(*frame, size);
-    auto inputs = configured->inputs(*frame, outgoing, outgoing);
+    auto inputs = whole->inputs(*frame, outgoing, outgoing);
     if (!inputs) return inputs.error();
     float largestRadiance = 0;
     for (const float value : outgoing.data) largestRadiance = std::max(largestRadiance, value);
-    auto tolerances = screenIndirectTolerances(configured->plan, largestRadiance);
-    return Case{std::move(configured->plan), *std::move(inputs), Precision::half, std::move(tolerances)};
+    auto tolerances = screenIndirectTolerances(whole->plan, largestRadiance);
+    return Case{std::move(whole->plan), *std::move(inputs), Precision::half, std::move(tolerances)};
 }
 
 std::string toText(const techniques::Draft& draft) {

@@ -87,7 +87,12 @@ std::vector<Difference> compare(const std::vector<PassImages>& images) {
     std::vector<Difference> differences(images.size());
     if (images.empty()) return differences;
     const Extent2D extent = images[0].reference->extent();
-    for (Difference& d : differences) d.texels = size_t(extent.width) * size_t(extent.height);
+    int choices = 1;
+    for (const PassImages& i : images) choices = std::max(choices, i.tolerance->choices);
+    for (Difference& d : differences) {
+        d.texels = size_t(extent.width) * size_t(extent.height);
+        d.choices = choices;
+    }
     for (int y = 0; y < extent.height; ++y)
         for (int x = 0; x < extent.width; ++x) {
             bool decided = false;
@@ -112,6 +117,7 @@ void merge(Difference& into, const Difference& d) {
     into.texels += d.texels;
     into.beyond += d.beyond;
     into.decisions += d.decisions;
+    into.choices = std::max(into.choices, d.choices);
     if (d.worstExcess <= into.worstExcess) return;
     into.worstExcess = d.worstExcess;
     into.worstX = d.worstX;

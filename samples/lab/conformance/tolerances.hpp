@@ -22,6 +22,7 @@ struct ImageTolerance {
     // Its texels rest on a choice among finer ones: where the vector's length agrees and another value does not, another
     // one was chosen, for all images of the pass.
     bool isChosen = false;
+    int choices = 1; // that a chosen texel rests on, one after the other
 };
 
 // Of an image or a buffer of numbers of that format, of which nothing else is known.

@@ -5,6 +5,7 @@
 #include "lab/light/path_tracer.hpp"
 #include "lab/techniques/technique.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,8 @@ struct Explanation {
     double truthMean = 0.0; // [W m^-2 sr^-1]
     // What is left to a method that computes all of what the screen shows without error: light that met
     // nothing else, minus all light. Only errors that offset each other can bring a method nearer to the
-    // truth.
-    Cause screenLimit;
+    // truth. Of techniques that know the screen alone.
+    std::optional<Cause> screenLimit;
     double noise =
         0.0; // standard error of the truth's luminance, root mean square over the truth's mean; at most
 };

@@ -30,6 +30,9 @@ public:
     // The next frame, number 0 first: at number / framesPerSecond seconds. All but the first have motion.
     Result<Frame> next(const FrameOptions&);
 
+    // As it is in the last frame, or at 0 s before there was one.
+    const Scene& current() const { return scene; }
+
     // What the scene's file holds that the lab leaves out or takes for something else: sentences.
     const std::vector<std::string>& notes() const { return scene.notes; }
 

@@ -6,9 +6,10 @@
 namespace rebound::techniques {
 
 Technique screenIndirect();
+Technique composition();
 
 const std::vector<Technique>& all() {
-    static const std::vector<Technique> techniques = {screenIndirect()};
+    static const std::vector<Technique> techniques = {screenIndirect(), composition()};
     return techniques;
 }
 
@@ -31,6 +32,15 @@ Result<> checkOptions(const Technique& technique, const Draft& draft, Spelling s
             return invalidArgument(spelled(option, spelling) + " is given, which technique " +
                                    technique.name + " does not have");
     return {};
+}
+
+Result<Configured> completed(Configured configured, const Surroundings& surroundings,
+                             const std::string& what) {
+    if (!configured.inScene) return configured;
+    if (!surroundings.scene)
+        return invalidArgument(configured.name + " needs the scene around the picture, but " + what +
+                               " has none; a scene was expected");
+    return configured.inScene(surroundings);
 }
 
 std::string spelled(const std::string& option, Spelling spelling) {

@@ -3,6 +3,7 @@
 // file in this folder that makes such a value, and a line in registry.cpp.
 #pragma once
 
+#include "lab/baking/lit_bake.hpp"
 #include "lab/rays/frame.hpp"
 #include "lab/runner/runner.hpp"
 #include "rebound/camera.hpp"
@@ -11,7 +12,9 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rebound::techniques {
@@ -40,6 +43,14 @@ struct Option {
     bool isSetting = true; // false: a look inside, which neither sweeps nor explain take
 };
 
+// Where pictures are taken, for techniques that know more than the picture.
+struct Surroundings {
+    std::shared_ptr<const lab::Scene> scene;
+    int threads = 0; // 0: one a core
+    // What is being done, and the share of it that is, 0 to 1.
+    std::function<void(std::string_view, double)> progress = {};
+};
+
 // A technique with all of its settings, for pictures of one size.
 struct Configured {
     Json settings;    // as run: of files of results
@@ -53,7 +64,17 @@ struct Configured {
     std::function<Result<runner::PlanInputs>(const lab::Frame&, const lab::Image& sent,
                                              const lab::Image& lit)>
         inputs;
+    // Frames until the picture of what stands still is what it stays.
+    int settlingFrames = 1;
+    // Of a technique that needs the scene, which completed() is then given: the plan above is only about as large as the
+    // real one, and there are no inputs. Else empty.
+    std::function<Result<Configured>(const Surroundings&)> inScene = {};
+    std::vector<std::string> notes = {};           // what was done to get there: sentences
+    std::shared_ptr<const lab::LitBake> bake = {}; // of a technique that has one, in its scene
 };
+
+// What can be run. Fails where the technique needs the scene, and there is none; `what` is what errors call the pictures.
+Result<Configured> completed(Configured, const Surroundings&, const std::string& what);
 
 // One of a technique's own approximations, switched to truth on top of those before it.
 struct Ablation {

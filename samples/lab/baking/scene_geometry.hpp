@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A scene of the lab as the baker takes it.
+#pragma once
+
+#include "lab/rays/embree_scene.hpp"
+#include "rebound/bake/geometry.hpp"
+
+#include <memory>
+
+namespace rebound::lab {
+
+// All triangles of the scene, in the order of its meshes. The result refers to the scene, which has to outlive it.
+BakeGeometry geometryOf(std::shared_ptr<const EmbreeScene>);
+
+} // namespace rebound::lab

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "rebound/techniques/illuminance_composition.hpp"
+
+#include "lab/baking/kept_bake.hpp"
+#include "lab/baking/scene_geometry.hpp"
+#include "lab/baking/surfel_light.hpp"
+#include "lab/scenes/camera_matrices.hpp"
+#include "lab/techniques/bake_settings.hpp"
+#include "lab/techniques/draft_values.hpp"
+#include "rebound/bake/bake_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace rebound::techniques {
+
+namespace {
+
+constexpr std::pair<const char*, bool> switchNames[] = {{"on", true}, {"off", false}};
+
+// Light of 8 bounces is settled after as many frames; what comes then is less than the eye sees.
+constexpr int settledBounces = 12;
+
+struct Choice {
+    BakeSettings bake;
+    std::string file; // empty: baked
+    bool bounces = true;
+    View view;
+};
+
+Result<Choice> choiceOf(const Draft& draft, const View& view, Spelling spelling) {
+    auto settings = bakeSettingsOf(draft, spelling);
+    if (!settings) return settings.error();
+    Choice choice{*settings, {}, true, view};
+    DraftValues values(draft, spelling);
+    values.replaceByName<bool>(choice.bounces, "feedback", switchNames);
+    if (!values.error()) return values.error().error();
+    const std::string* file = values.find("bake");
+    if (!file) return choice;
+    if (file->empty()) return invalidArgument(values.called("bake") + " is empty; a file was expected");
+    for (const Option& option : bakeOptions())
+        if (values.find(option.name))
+            return invalidArgument(values.called(option.name) + " was given with " + values.called("bake") +
+                                   ", whose file says it already");
+    choice.file = *file;
+    return choice;
+}
+
+// As large as a bake with these settings becomes at most, or nearly so.
+BakeLayout likelyLayout(const BakeSettings& s) {
+    BakeLayout layout;
+    layout.surfels = s.surfels;
+    layout.nodes = 2 * s.surfels - 1;
+    layout.caches = s.caches;
+    layout.links = s.links;
+    layout.bands = s.bands;
+    layout.linkForm = s.linkForm;
+    layout.cells = s.caches;
+    // Surfaces pass through a few of a brick's 64 cells.
+    const uint32_t side = std::clamp(uint32_t(std::ceil(std::cbrt(double(s.caches) / 8.0))), 1u, 256u);
+    layout.bricks = glm::uvec3(side);
+    layout.filledBricks = std::min(side * side * side, s.caches);
+    layout.receivers = 8 * s.caches;
+    if (layout.nodes > layout.surfels) {
+        layout.stages = 1;
+        layout.stage[0] = {layout.surfels, layout.nodes - layout.surfels, 2, 0};
+    }
+    return layout;
+}
+
+IlluminanceCompositionSettings settingsOf(const Choice& choice, const BakeLayout& layout, bool emission) {
+    IlluminanceCompositionSettings settings;
+    settings.resolution = choice.view.size;
+    settings.conventions.projection = choice.view.projection;
+    settings.bake = layout;
+    settings.bounces = choice.bounces;
+    settings.emission = emission;
+    return settings;
+}
+
+Json settingsJson(const Choice& choice) {
+    Json json = choice.file.empty() ? toJson(choice.bake) : Json{{"bake", choice.file}};
+    json["feedback"] = choice.bounces;
+    return json;
+}
+
+std::string nameOf(const Choice& choice) {
+    return "composition, " + (choice.file.empty() ? techniques::nameOf(choice.bake) : choice.file) +
+           (choice.bounces ? "" : ", one bounce");
+}
+
+Result<Configured> withoutInputs(const Choice& choice, const BakeLayout& layout, bool emission) {
+    auto plan = planIlluminanceComposition(settingsOf(choice, layout, emission));
+    if (!plan) return plan.error();
+    Configured configured;
+    configured.settings = settingsJson(choice);
+    configured.name = nameOf(choice);
+    configured.description = configured.name;
+    configured.plan = *std::move(plan);
+    configured.settlingFrames = choice.bounces ? settledBounces : 1;
+    return configured;
+}
+
+// Rays need the scene as long as they are cast.
+struct SceneWithRays {
+    std::shared_ptr<const lab::Scene> scene;
+    lab::EmbreeScene rays;
+};
+
+Result<std::shared_ptr<const lab::EmbreeScene>> raysOf(std::shared_ptr<const lab::Scene> scene) {
+    auto rays = lab::EmbreeScene::build(*scene);
+    if (!rays) return rays.error();
+    const auto both =
+        std::make_shared<const SceneWithRays>(SceneWithRays{std::move(scene), *std::move(rays)});
+    return std::shared_ptr<const lab::EmbreeScene>(both, &both->rays);
+}
+
+SharedBytes sharedBytes(std::span<const std::byte> bytes) {
+    return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
+
+// What stays the same from frame to frame.
+struct BakedScene {
+    BakeLayout layout;
+    std::array<SharedBytes, bakeSectionCount> sections;
+    SharedBytes surfelLight;
+};
+
+Result<lab::ObtainedBake> obtainBake(const Choice& choice, std::shared_ptr<const lab::EmbreeScene> rays,
+                                     const Surroundings& surroundings) {
+    if (!choice.file.empty()) {
+        auto bake = readBake(choice.file);
+        if (!bake) return bake.error();
+        if (bake->layout.geometry != fingerprintOf(lab::geometryOf(std::move(rays))))
+            return invalidArgument(choice.file + " is the bake of another scene than " +
+                                   surroundings.scene->name + "; rebound bake makes one of it");
+        return lab::ObtainedBake{*std::move(bake), choice.file, 0.0};
+    }
+    BakeSettings settings = choice.bake;
+    settings.threads = surroundings.threads;
+    settings.progress = surroundings.progress;
+    return lab::keptBake(std::move(rays), settings, lab::bakeFolder());
+}
+
+std::string noteOn(const lab::ObtainedBake& obtained) {
+    char text[48];
+    std::snprintf(text, sizeof text, "the scene was baked in %.1f s", obtained.seconds);
+    return (obtained.seconds > 0.0 ? std::string(text) + " and kept as " : "the bake was taken from ") +
+           obtained.file.string();
+}
+
+Result<Configured> bakedIn(const Choice& choice, const Surroundings& surroundings) {
+    auto rays = raysOf(surroundings.scene);
+    if (!rays) return rays.error();
+    auto obtained = obtainBake(choice, *rays, surroundings);
+    if (!obtained) return obtained.error();
+    const bool emission = !surroundings.scene->emissiveMaterialsLight;
+    auto configured = withoutInputs(choice, obtained->bake.layout, emission);
+    if (!configured) return configured.error();
+    configured->notes.push_back(noteOn(*obtained));
+
+    const auto baked = std::make_shared<BakedScene>();
+    baked->layout = obtained->bake.layout;
+    for (size_t i = 0; i < baked->sections.size(); ++i)
+        baked->sections[i] = sharedBytes(std::as_bytes(obtained->bake.sections[i]));
+    lab::SurfelLightOptions light;
+    light.threads = surroundings.threads;
+    std::vector<float> planes = lab::directLightOnSurfels(obtained->bake, **rays, light);
+    baked->surfelLight = sharedBytes(std::as_bytes(std::span(planes)));
+    configured->bake =
+        std::make_shared<const lab::LitBake>(lab::LitBake{obtained->bake, std::move(planes), emission});
+
+    const IlluminanceCompositionSettings settings = settingsOf(choice, baked->layout, emission);
+    configured->inputs = [settings, baked](const lab::Frame& frame, const lab::Image&,
+                                           const lab::Image& lit) {
+        IlluminanceCompositionFrame<lab::Image> inputs;
+        inputs.camera = lab::cameraMatrices(frame.camera, settings.resolution);
+        inputs.depth = frame.depth;
+        inputs.normal = frame.normal;
+        inputs.albedo = frame.albedo;
+        inputs.lit = lit;
+        inputs.sections = baked->sections;
+        inputs.surfelLight = baked->surfelLight;
+        return illuminanceCompositionInputs(settings, inputs);
+    };
+    return configured;
+}
+
+Result<Configured> configuredFor(const Choice& choice) {
+    BakeLayout layout = likelyLayout(choice.bake);
+    if (!choice.file.empty()) {
+        auto bake = readBake(choice.file);
+        if (!bake) return bake.error();
+        layout = bake->layout;
+    }
+    auto configured = withoutInputs(choice, layout, true);
+    if (!configured) return configured.error();
+    configured->inScene = [choice](const Surroundings& surroundings) {
+        return bakedIn(choice, surroundings);
+    };
+    return configured;
+}
+
+Result<Configured> parse(const Draft& draft, const View& view, Spelling spelling) {
+    const auto choice = choiceOf(draft, view, spelling);
+    if (!choice) return choice.error();
+    return configuredFor(*choice);
+}
+
+// Settings that leave little of one approximation each, on top of those before them.
+Result<std::vector<Ablation>> ablations(const Draft& draft, const View& view) {
+    const auto given = choiceOf(draft, view, Spelling::options);
+    if (!given) return given.error();
+    if (!given->file.empty()) return std::vector<Ablation>{};
+    Choice choice = *given;
+    std::vector<Ablation> steps;
+    const auto add = [&](const char* name, const std::string& meaning) -> Result<> {
+        auto without = configuredFor(choice);
+        if (!without) return without.error();
+        steps.push_back({name, meaning, *std::move(without)});
+        return {};
+    };
+    choice.bake.bands = 4;
+    if (auto added = add("bands", "bands of spherical harmonics -> 4"); !added) return added.error();
+    choice.bake.links = std::min(2 * choice.bake.links, 4096u);
+    choice.bake.raysPerLink = std::min(8 * choice.bake.raysPerLink, 1024u);
+    if (auto added = add("links", "links -> twice as many, with 8 times the rays"); !added)
+        return added.error();
+    choice.bake.caches = std::min(8 * choice.bake.caches, 1u << 24);
+    choice.bake.spacing *= 0.5f;
+    if (auto added = add("interpolation", "caches -> 8 times as many"); !added) return added.error();
+    return steps;
+}
+
+std::vector<Option> options() {
+    std::vector<Option> all = {
+        {"bake", "FILE", "what rebound bake has written (default: the scene is baked, and the bake kept)"},
+        {"feedback", "SWITCH",
+         "surfels receive light of the caches of the frame before, a bounce a frame:\non or off (default: "
+         "on)"},
+    };
+    for (Option& option : bakeOptions()) all.push_back(std::move(option));
+    return all;
+}
+
+} // namespace
+
+Technique composition() {
+    Technique technique;
+    technique.name = "composition";
+    technique.heading = "Precomputed illuminance composition";
+    technique.options = options();
+    technique.parse = parse;
+    technique.ablations = ablations;
+    technique.lastApproximation = {"caches and patches",
+                                   "caches lit through patches -> rays from every pixel to surfels"};
+    technique.examples = {{{"surfels", "2000"}, {"caches", "800"}, {"links", "32"}}};
+    return technique;
+}
+
+} // namespace rebound::techniques
