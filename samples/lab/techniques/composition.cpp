@@ -209,7 +209,7 @@ Result<Configured> parse(const Draft& draft, const View& view, Spelling spelling
     return configuredFor(*choice);
 }
 
-// Settings that leave little of one approximation each, on top of those before them.
+// Settings that leave less of one approximation each, on top of those before them; more would take minutes to bake.
 Result<std::vector<Ablation>> ablations(const Draft& draft, const View& view) {
     const auto given = choiceOf(draft, view, Spelling::options);
     if (!given) return given.error();
@@ -225,12 +225,12 @@ Result<std::vector<Ablation>> ablations(const Draft& draft, const View& view) {
     choice.bake.bands = 4;
     if (auto added = add("bands", "bands of spherical harmonics -> 4"); !added) return added.error();
     choice.bake.links = std::min(2 * choice.bake.links, 4096u);
-    choice.bake.raysPerLink = std::min(8 * choice.bake.raysPerLink, 1024u);
-    if (auto added = add("links", "links -> twice as many, with 8 times the rays"); !added)
+    choice.bake.raysPerLink = std::min(2 * choice.bake.raysPerLink, 1024u);
+    if (auto added = add("links", "links -> twice as many, each with twice the rays"); !added)
         return added.error();
-    choice.bake.caches = std::min(8 * choice.bake.caches, 1u << 24);
-    choice.bake.spacing *= 0.5f;
-    if (auto added = add("interpolation", "caches -> 8 times as many"); !added) return added.error();
+    choice.bake.caches = std::min(4 * choice.bake.caches, 1u << 24);
+    choice.bake.spacing *= 0.63f; // a quarter of the cells' volume
+    if (auto added = add("interpolation", "caches -> 4 times as many"); !added) return added.error();
     return steps;
 }
 
