@@ -10,7 +10,7 @@ using namespace rebound::explain;
 namespace {
 
 ScreenEstimates estimated(const lab::Scene& scene, const lab::CameraView& camera,
-                          const ScreenEstimateOptions& options) {
+                          const EstimateOptions& options) {
     auto estimates = estimateFromScreen(scene, camera, options);
     REQUIRE_MESSAGE(estimates, (estimates ? "" : estimates.error().message));
     return *std::move(estimates);

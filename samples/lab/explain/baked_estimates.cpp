@@ -21,7 +21,7 @@ using lab::SurfacePoint;
 class Estimator {
 public:
     Estimator(const lab::EmbreeScene& embree, const lab::CameraView& view, const lab::LitBake& lit,
-              const std::vector<glm::vec3>& radiances, const BakedEstimateOptions& given)
+              const std::vector<glm::vec3>& radiances, const EstimateOptions& given)
         : scene(embree), camera(view), baked(lit), sent(radiances), options(given), rays(view, given.extent),
           light(embree), lookup(lit.bake) {
         const Image black(given.extent, 3);
@@ -67,10 +67,8 @@ private:
         const auto hit =
             scene.locate({receiver.position + receiver.geometricNormal * receiver.clearance, direction});
         if (!hit) return;
-        const SurfacePoint point = scene.surfaceAt(hit->location, direction);
-        const Reflector sender{
-            point, -direction,
-            lab::lobesOf(scene.materialAt(hit->location), point.albedo, lab::GlossyModel::diffuseOnly)};
+        const Reflector sender = reflectorAt(scene, *hit, direction);
+        const SurfacePoint& point = sender.point;
         Recorder path;
         path.add(0, light.fromPoints(sender) + light.sentEmission(point));
         lab::walkPath({scene, light, lab::GlossyModel::diffuseOnly, options.bounces - 1}, sender, sequence,
@@ -85,32 +83,25 @@ private:
     }
 
     void estimatePixel(int x, int y) {
-        const lab::CameraRay through = rays.throughPixel(x, y);
-        const auto hit = scene.intersect(
-            {glm::vec3(through.origin), glm::vec3(through.direction), camera.nearPlane, camera.farPlane});
+        const auto hit = visibleThrough(scene, camera, rays, x, y);
         if (!hit) return;
         Sums sums;
-        const uint32_t seed = lab::hashBits(lab::hashBits(uint32_t(x), 3u), uint32_t(y));
+        const uint32_t seed = pathSeed(x, y);
         for (int i = 0; i < options.samples; ++i)
             addPath(hit->point, lab::SampleSequence(uint32_t(i), seed), sums);
-        const auto store = [&](Image& image, glm::vec3 sum) {
-            const glm::vec3 mean = sum / float(options.samples);
-            std::copy_n(&mean.x, 3, image.at(x, y));
-        };
+        const auto store = [&](Image& image, glm::vec3 sum) { storeMean(image, x, y, sum, options.samples); };
         store(estimates.fromSurfels, sums.fromSurfels);
         store(estimates.exactDirect, sums.exactDirect);
         store(estimates.allBounces, sums.all);
-        const double count = options.samples;
-        const double mean = double(lab::luminance(sums.all)) / count;
         *estimates.standardError.at(x, y) =
-            float(std::sqrt(std::max(0.0, sums.squared / count - mean * mean) / std::max(1.0, count - 1.0)));
+            standardErrorOf(double(lab::luminance(sums.all)), sums.squared, options.samples);
     }
 
     const lab::EmbreeScene& scene;
     const lab::CameraView& camera;
     const lab::LitBake& baked;
     const std::vector<glm::vec3>& sent;
-    const BakedEstimateOptions& options;
+    const EstimateOptions& options;
     lab::CameraRays rays;
     lab::LightSampling light;
     lab::SurfelLookup lookup;
@@ -121,15 +112,8 @@ private:
 
 Result<BakedEstimates> estimateFromSurfels(const lab::Scene& scene, const lab::CameraView& camera,
                                            const lab::LitBake& baked, const std::vector<glm::vec3>& sent,
-                                           const BakedEstimateOptions& options) {
-    lab::PathTracerOptions tracing;
-    tracing.extent = options.extent;
-    tracing.bounces = options.bounces;
-    tracing.samples = options.samples;
-    tracing.threads = options.threads;
-    if (auto valid = lab::validate(tracing); !valid) return valid.error();
-    if (options.bounces < 1) return invalidArgument("path tracer option bounces is 0; expected 1 to 64");
-    if (auto valid = lab::validate(camera); !valid) return valid.error();
+                                           const EstimateOptions& options) {
+    if (auto valid = validate(options, camera); !valid) return valid.error();
     const auto embree = lab::EmbreeScene::build(scene);
     if (!embree) return embree.error();
     return Estimator(*embree, camera, baked, sent, options).run();

@@ -3,19 +3,11 @@
 #pragma once
 
 #include "lab/baking/lit_bake.hpp"
-#include "lab/light/path_tracer.hpp"
+#include "lab/explain/estimates.hpp"
 
 #include <vector>
 
 namespace rebound::explain {
-
-struct BakedEstimateOptions {
-    Extent2D extent{320, 180};
-    int bounces = 8;   // of `allBounces`, 1 to 64
-    int samples = 256; // paths a pixel, 1 to 2^20
-    int threads = 0;   // 0: one a core
-    lab::Progress progress = {};
-};
 
 // E / pi at every pixel, 3 channels, 0 where nothing is visible. All come from the same paths, so that what two of them
 // share cancels in their difference.
@@ -29,6 +21,6 @@ struct BakedEstimates {
 
 // sent: by surfel, the radiance that it sends, of all its light [W m^-2 sr^-1]. Fails as path tracing does.
 Result<BakedEstimates> estimateFromSurfels(const lab::Scene&, const lab::CameraView&, const lab::LitBake&,
-                                           const std::vector<glm::vec3>& sent, const BakedEstimateOptions&);
+                                           const std::vector<glm::vec3>& sent, const EstimateOptions&);
 
 } // namespace rebound::explain

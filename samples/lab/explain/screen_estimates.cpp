@@ -32,7 +32,7 @@ struct Gathered {
 
 class Estimator {
 public:
-    Estimator(const lab::EmbreeScene& embree, const lab::CameraView& view, const ScreenEstimateOptions& given)
+    Estimator(const lab::EmbreeScene& embree, const lab::CameraView& view, const EstimateOptions& given)
         : scene(embree), camera(view), options(given), rays(view, given.extent), light(embree) {
         const Image black(given.extent, 3);
         estimates = {black, black, black, black, black, black, Image(given.extent, 1)};
@@ -54,12 +54,6 @@ private:
         const glm::vec3 eye(projected->origin);
         const bool facing = glm::dot(point.geometricNormal, eye - point.position) > 0.0f;
         return facing && scene.visible(point, eye) ? Sight::seen : Sight::hidden;
-    }
-
-    Reflector reflectorAt(const lab::LocationHit& hit, glm::vec3 direction) const {
-        const SurfacePoint point = scene.surfaceAt(hit.location, direction);
-        return {point, -direction,
-                lab::lobesOf(scene.materialAt(hit.location), point.albedo, lab::GlossyModel::diffuseOnly)};
     }
 
     // Light that the first surface along a path sends on, with all that came before it.
@@ -100,7 +94,7 @@ private:
             const auto hit = scene.locate(ray);
             if (!hit) break;
             distance = hit->distance;
-            const Reflector sender = reflectorAt(*hit, ray.direction);
+            const Reflector sender = reflectorAt(scene, *hit, ray.direction);
             if (sightOf(sender.point) != Sight::seen) continue;
             recorder.sum += light.fromPoints(sender) + light.sentEmission(sender.point);
             lab::walkPath({scene, light}, sender, sequence, recorder);
@@ -120,7 +114,7 @@ private:
         const lab::Ray ray{receiver.position + receiver.geometricNormal * receiver.clearance, direction};
         const auto hit = scene.locate(ray);
         if (!hit) return;
-        const Reflector sender = reflectorAt(*hit, direction);
+        const Reflector sender = reflectorAt(scene, *hit, direction);
         const Sight sight = sightOf(sender.point);
         const Gathered gathered = follow(sender, sight == Sight::seen, sequence);
         if (sight == Sight::seen) {
@@ -136,33 +130,26 @@ private:
     }
 
     void estimatePixel(int x, int y) {
-        const lab::CameraRay through = rays.throughPixel(x, y);
-        const auto hit = scene.intersect(
-            {glm::vec3(through.origin), glm::vec3(through.direction), camera.nearPlane, camera.farPlane});
+        const auto hit = visibleThrough(scene, camera, rays, x, y);
         if (!hit) return;
         Sums sums;
-        const uint32_t seed = lab::hashBits(lab::hashBits(uint32_t(x), 3u), uint32_t(y));
+        const uint32_t seed = pathSeed(x, y);
         for (int i = 0; i < options.samples; ++i)
             addPath(hit->point, lab::SampleSequence(uint32_t(i), seed), sums);
-        const auto store = [&](Image& image, glm::vec3 sum) {
-            const glm::vec3 mean = sum / float(options.samples);
-            std::copy_n(&mean.x, 3, image.at(x, y));
-        };
+        const auto store = [&](Image& image, glm::vec3 sum) { storeMean(image, x, y, sum, options.samples); };
         store(estimates.withoutVisibility, sums.withoutVisibility);
         store(estimates.withVisibility, sums.withVisibility);
         store(estimates.inView, sums.inView);
         store(estimates.firstBounce, sums.first);
         store(estimates.allBounces, sums.all);
         store(estimates.screenBounces, sums.screen);
-        const double count = options.samples;
-        const double mean = double(lab::luminance(sums.all)) / count;
         *estimates.standardError.at(x, y) =
-            float(std::sqrt(std::max(0.0, sums.squared / count - mean * mean) / std::max(1.0, count - 1.0)));
+            standardErrorOf(double(lab::luminance(sums.all)), sums.squared, options.samples);
     }
 
     const lab::EmbreeScene& scene;
     const lab::CameraView& camera;
-    const ScreenEstimateOptions& options;
+    const EstimateOptions& options;
     lab::CameraRays rays;
     lab::LightSampling light;
     ScreenEstimates estimates;
@@ -171,15 +158,8 @@ private:
 } // namespace
 
 Result<ScreenEstimates> estimateFromScreen(const lab::Scene& scene, const lab::CameraView& camera,
-                                           const ScreenEstimateOptions& options) {
-    lab::PathTracerOptions tracing;
-    tracing.extent = options.extent;
-    tracing.bounces = options.bounces;
-    tracing.samples = options.samples;
-    tracing.threads = options.threads;
-    if (auto valid = lab::validate(tracing); !valid) return valid.error();
-    if (options.bounces < 1) return invalidArgument("path tracer option bounces is 0; expected 1 to 64");
-    if (auto valid = lab::validate(camera); !valid) return valid.error();
+                                           const EstimateOptions& options) {
+    if (auto valid = validate(options, camera); !valid) return valid.error();
     const auto embree = lab::EmbreeScene::build(scene);
     if (!embree) return embree.error();
     return Estimator(*embree, camera, options).run();

@@ -2,17 +2,9 @@
 // Light at the visible surfaces under rules that step by step give up what the screen cannot know.
 #pragma once
 
-#include "lab/light/path_tracer.hpp"
+#include "lab/explain/estimates.hpp"
 
 namespace rebound::explain {
-
-struct ScreenEstimateOptions {
-    Extent2D extent{320, 180};
-    int bounces = 8;   // of `allBounces` and `screenBounces`, 1 to 64
-    int samples = 256; // paths a pixel, 1 to 2^20
-    int threads = 0;   // 0: one a core
-    lab::Progress progress = {};
-};
 
 // E / pi at every pixel, 3 channels, 0 where nothing is visible. All come from the same paths, so that what
 // two of them share cancels in their difference. A surface is seen where the camera sees that side of it.
@@ -30,7 +22,6 @@ struct ScreenEstimates {
 };
 
 // Fails as path tracing does.
-Result<ScreenEstimates> estimateFromScreen(const lab::Scene&, const lab::CameraView&,
-                                           const ScreenEstimateOptions&);
+Result<ScreenEstimates> estimateFromScreen(const lab::Scene&, const lab::CameraView&, const EstimateOptions&);
 
 } // namespace rebound::explain
