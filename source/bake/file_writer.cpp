@@ -38,7 +38,7 @@ std::FILE* openTemporary(const fs::path& folder, fs::path& temporary) {
     constexpr int attempts =
         1000; // names that other writers in this folder may hold, or have left in a crash
     for (int i = 0; i < attempts; ++i) {
-        temporary = folder / (".rebound-bake-" + std::to_string(i) + ".partial");
+        temporary = folder / (".rebound-" + std::to_string(i) + ".partial");
         if (std::FILE* stream = std::fopen(temporary.string().c_str(), "wbx")) return stream;
         if (errno != EEXIST) return nullptr;
     }
