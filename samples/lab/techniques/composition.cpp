@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace rebound::techniques {
 
@@ -25,7 +26,8 @@ constexpr int settledBounces = 12;
 
 struct Choice {
     BakeSettings bake;
-    std::string file; // empty: baked
+    std::string file;         // empty: baked
+    std::optional<Bake> read; // from that file
     bool bounces = true;
     View view;
 };
@@ -33,7 +35,7 @@ struct Choice {
 Result<Choice> choiceOf(const Draft& draft, const View& view, Spelling spelling) {
     auto settings = bakeSettingsOf(draft, spelling);
     if (!settings) return settings.error();
-    Choice choice{*settings, {}, true, view};
+    Choice choice{*settings, {}, {}, true, view};
     DraftValues values(draft, spelling);
     values.replaceByName<bool>(choice.bounces, "feedback", switchNames);
     if (!values.error()) return values.error().error();
@@ -45,6 +47,9 @@ Result<Choice> choiceOf(const Draft& draft, const View& view, Spelling spelling)
             return invalidArgument(values.called(option.name) + " was given with " + values.called("bake") +
                                    ", whose file says it already");
     choice.file = *file;
+    auto bake = readBake(choice.file);
+    if (!bake) return bake.error();
+    choice.read = *std::move(bake);
     return choice;
 }
 
@@ -130,13 +135,11 @@ struct BakedScene {
 
 Result<lab::ObtainedBake> obtainBake(const Choice& choice, std::shared_ptr<const lab::EmbreeScene> rays,
                                      const Surroundings& surroundings) {
-    if (!choice.file.empty()) {
-        auto bake = readBake(choice.file);
-        if (!bake) return bake.error();
-        if (bake->layout.geometry != fingerprintOf(lab::geometryOf(std::move(rays))))
+    if (choice.read) {
+        if (choice.read->layout.geometry != fingerprintOf(lab::geometryOf(std::move(rays))))
             return invalidArgument(choice.file + " is the bake of another scene than " +
                                    surroundings.scene->name + "; rebound bake makes one of it");
-        return lab::ObtainedBake{*std::move(bake), choice.file, 0.0};
+        return lab::ObtainedBake{*choice.read, choice.file, 0.0};
     }
     BakeSettings settings = choice.bake;
     settings.threads = surroundings.threads;
@@ -189,13 +192,8 @@ Result<Configured> bakedIn(const Choice& choice, const Surroundings& surrounding
 }
 
 Result<Configured> configuredFor(const Choice& choice) {
-    BakeLayout layout = likelyLayout(choice.bake);
-    if (!choice.file.empty()) {
-        auto bake = readBake(choice.file);
-        if (!bake) return bake.error();
-        layout = bake->layout;
-    }
-    auto configured = withoutInputs(choice, layout, true);
+    auto configured =
+        withoutInputs(choice, choice.read ? choice.read->layout : likelyLayout(choice.bake), true);
     if (!configured) return configured.error();
     configured->inScene = [choice](const Surroundings& surroundings) {
         return bakedIn(choice, surroundings);
