@@ -3,6 +3,7 @@
 #pragma once
 
 #include "reference_frames.hpp"
+#include "take.hpp"
 
 #include "lab/images/image_files.hpp"
 #include "lab/measure/frame_pipeline.hpp"
@@ -18,17 +19,10 @@
 #include <fstream>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace rebound::accuracy {
-
-template <class T>
-T taken(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 struct BakedView {
     std::string name;
@@ -51,24 +45,24 @@ std::vector<BakedView> bakedViews(const std::filesystem::path& shared, Wanted wa
         if (!wanted(view.name)) continue;
         const std::filesystem::path folder = shared / "reference" / view.name;
         const std::string scene = view.name.substr(0, view.name.find('/'));
-        view.truth = taken(lab::readExr(folder / "indirect_8.exr"));
+        view.truth = take(lab::readExr(folder / "indirect_8.exr"));
         auto loaded = std::make_shared<const lab::Scene>(
-            taken(lab::loadScene((shared / "scenes" / scene / "scene.gltf").string())));
+            take(lab::loadScene((shared / "scenes" / scene / "scene.gltf").string())));
         views.push_back({view.name, std::move(view), noiseOf(folder), std::move(loaded)});
     }
     return views;
 }
 
 inline lab::Image composed(const BakedView& view, const techniques::Draft& draft) {
-    const techniques::Technique& technique = *taken(techniques::named("technique", "composition"));
+    const techniques::Technique& technique = *take(techniques::named("technique", "composition"));
     const lab::Frame& frame = view.reference.frame;
-    auto configured = taken(technique.parse(draft, techniques::viewOf(frame), techniques::Spelling::options));
-    configured = taken(techniques::completed(std::move(configured), {view.scene, 0, {}}, view.name));
-    const auto backend = taken(runner::createBackend({}));
-    auto pipeline = taken(
+    auto configured = take(technique.parse(draft, techniques::viewOf(frame), techniques::Spelling::options));
+    configured = take(techniques::completed(std::move(configured), {view.scene, 0, {}}, view.name));
+    const auto backend = take(runner::createBackend({}));
+    auto pipeline = take(
         measure::FramePipeline::create(frame, std::move(configured), *backend, runner::Precision::single));
-    for (int i = 0; i < pipeline.technique().settlingFrames; ++i) taken(pipeline.run());
-    return taken(pipeline.indirect());
+    for (int i = 0; i < pipeline.technique().settlingFrames; ++i) take(pipeline.run());
+    return take(pipeline.indirect());
 }
 
 // What the truth's noise adds to the squared error is the same for any result.

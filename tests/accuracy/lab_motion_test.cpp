@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The lab's motion as an engine's would be checked: by the input check, against depth and both cameras.
+#include "take.hpp"
+
 #include "lab/examine/frame_examination.hpp"
 #include "lab/sequences/sequence.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 using namespace rebound;
+using rebound::accuracy::take;
 
 namespace {
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 // The second frame of the built-in camera path.
 lab::Frame frameInMotion(const std::string& scene) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "path_tracer_agreement.hpp"
+#include "take.hpp"
 
 #include "lab/images/image_files.hpp"
 #include "lab/light/path_tracer.hpp"
@@ -10,16 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 namespace rebound::accuracy {
 namespace {
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 // 1 where both renderers can be compared. Where two of a scene's triangles coincide, rays of the reference that leave one
 // end at its twin, and the pixel is black; ours start behind it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The error of every preset against the truth at 1280x720, on the first view of four built-in scenes.
 #include "preset_record.hpp"
+#include "take.hpp"
 
 #include "lab/light/path_tracer.hpp"
 #include "lab/scenes/scene_files.hpp"
@@ -8,18 +9,11 @@
 #include <doctest/doctest.h>
 
 #include <iostream>
-#include <stdexcept>
 
 using namespace rebound;
 using namespace rebound::accuracy;
 
 namespace {
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 // 16 paths a pixel leave much noise in each, which the halves take out of the mean squared error: its own standard error
 // is 0.3 % at most.

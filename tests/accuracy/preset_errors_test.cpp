@@ -2,6 +2,7 @@
 // The error of every preset against the truth, on two built-in views and the published ones, at the size of the latter.
 // A size that people use: preset_errors_long_test.cpp.
 #include "preset_record.hpp"
+#include "take.hpp"
 
 #include "lab/light/reference_cache.hpp"
 #include "lab/scenes/scene_files.hpp"
@@ -17,12 +18,6 @@ using namespace rebound;
 using namespace rebound::accuracy;
 
 namespace {
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 // First bounces of a built-in scene by the path tracer. Their noise, 10 to 14 % of the mean in single pixels, is the same
 // every time, and little beside what screen space misses.

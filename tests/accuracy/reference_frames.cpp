@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "reference_frames.hpp"
+#include "take.hpp"
 
 #include "lab/images/image_files.hpp"
 #include "lab/scenes/camera_matrices.hpp"
@@ -9,16 +10,9 @@
 
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
 
 namespace rebound::accuracy {
 namespace {
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 // By view: what screen space can reach there. An empty object where there is no such file.
 nlohmann::ordered_json limitsOf(const std::filesystem::path& shared) {
