@@ -51,7 +51,7 @@ const std::vector<SeenSender>& LinkCutter::cut(glm::vec3 cache, uint32_t index) 
 
 void LinkCutter::castRays(glm::vec3 cache, uint32_t index) {
     const glm::mat3 rotation = rotationOf(index);
-    rays.resize(evenDirections.size());
+    rays.assign(evenDirections.size(), {});
     met.resize(rays.size());
     for (size_t i = 0; i < rays.size(); ++i) {
         rays[i].origin = cache;

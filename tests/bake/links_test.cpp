@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <set>
 
@@ -35,13 +36,17 @@ struct Senders {
           surfels(*placeSurfels(geometry, rays, settings)),
           tree(*buildSurfelTree(surfels, settings.hierarchy, 2)) {}
 
-    std::vector<SeenSender> cut(glm::vec3 place, uint32_t index = 0) const {
+    // before: places that are looked at first.
+    std::vector<SeenSender> cut(glm::vec3 place, uint32_t index = 0,
+                                std::initializer_list<glm::vec3> before = {}) const {
         const Surroundings around(geometry, rays);
         const SurfelLookup lookup(std::span(tree.nodes).first(surfels.size()));
         std::vector<uint32_t> emitters;
         for (uint32_t leaf = 0; leaf < surfels.size(); ++leaf)
             if (surfels[tree.order[leaf]].emission.x > 0.0f) emitters.push_back(leaf);
-        return LinkCutter(around, tree, lookup, emitters, settings).cut(place, index);
+        LinkCutter cutter(around, tree, lookup, emitters, settings);
+        for (const glm::vec3 other : before) cutter.cut(other, 1);
+        return cutter.cut(place, index);
     }
 };
 
@@ -183,6 +188,26 @@ TEST_CASE("a small lamp is seen from afar as large as it is") {
         }
         // Where it is seen, its cluster holds next to nothing else.
         CHECK(seen == doctest::Approx(expected).epsilon(0.1));
+    }
+}
+
+TEST_CASE("what a cache sees does not depend on which one was looked at before") {
+    BakeGeometry geometry = closedBox();
+    const uint32_t first = geometry.triangles();
+    addQuad(geometry, {1.98f, 2.5f, 2.48f}, {0.05f, 0, 0}, {0, 0, 0.05f}); // a lamp, met by rays of its own
+    geometry.surface = [first](uint32_t triangle, glm::vec2) {
+        BakeSurface surface;
+        surface.emission = glm::vec3(triangle >= first ? 1.0f : 0.0f);
+        return surface;
+    };
+    const Senders scene(geometry, smallSettings());
+    const glm::vec3 near(2.0f, 2.3f, 2.5f), far(0.3f, 0.3f, 4.5f);
+    const std::vector<SeenSender> alone = scene.cut(far);
+    const std::vector<SeenSender> after = scene.cut(far, 0, {near});
+    REQUIRE(after.size() == alone.size());
+    for (size_t i = 0; i < alone.size(); ++i) {
+        CHECK(after[i].node == alone[i].node);
+        CHECK(after[i].coefficients == alone[i].coefficients);
     }
 }
 
