@@ -50,7 +50,6 @@ std::vector<Cluster> clustersOf(std::span<const Surfel> surfels) {
         cluster.normal = glm::dvec3(surfel.normal);
         cluster.open = glm::dvec3(surfel.open);
         cluster.prospect = glm::dvec3(surfel.prospect);
-        cluster.emitting = glm::any(glm::greaterThan(surfel.emission, glm::vec3(0.0f))) ? 1.0 : 0.0;
         cluster.area = double(surfel.area);
         clusters.push_back(cluster);
     }
@@ -147,19 +146,49 @@ uint32_t stagesOf(const std::vector<NodeSum>& sums) {
 // Ours were chosen by the error of light from 128 links, to that of all surfels one by one, in nine scenes.
 detail::ClusterWeights weightsOf(BakeHierarchy hierarchy) {
     if (hierarchy == BakeHierarchy::paper) return {};
-    return {.normal = 0.1, .balance = 0.0, .open = 0.3, .emission = 0.3, .prospect = 1.0};
+    return {.normal = 0.1, .balance = 0.0, .open = 0.3, .prospect = 1.0};
 }
 
-SurfelTree build(std::span<const Surfel> surfels, BakeHierarchy hierarchy, int threads) {
-    const std::vector<Cluster> clusters = clustersOf(surfels);
+// Of at least one cluster, in fewer stages than a bake may have: one is left for a root above.
+Joins shallowJoins(std::span<const Cluster> clusters, BakeHierarchy hierarchy, int threads) {
     const detail::ClusterWeights weights = weightsOf(hierarchy);
     Joins joins = hierarchy == BakeHierarchy::kdTree ? detail::joinHalves(clusters, weights)
                                                      : detail::joinNearest(clusters, weights, threads);
-    std::vector<NodeSum> sums = detail::sumsOf(surfels.size(), joins);
-    if (stagesOf(sums) > uint32_t(maximumBakeStages)) {
+    if (stagesOf(detail::sumsOf(clusters.size(), joins)) >= uint32_t(maximumBakeStages))
         joins = detail::rebalanced(clusters, joins, weights);
-        sums = detail::sumsOf(surfels.size(), joins);
+    return joins;
+}
+
+// Lamps join lamps alone, up to the root. A node of lamps and of what they light would send the mean of both, and lamps
+// have by far the most of it.
+Joins joinsOf(std::span<const Surfel> surfels, BakeHierarchy hierarchy, int threads) {
+    const std::vector<Cluster> clusters = clustersOf(surfels);
+    std::array<std::vector<uint32_t>, 2> kinds;
+    for (uint32_t i = 0; i < surfels.size(); ++i) {
+        const bool emits = glm::any(glm::greaterThan(surfels[i].emission, glm::vec3(0.0f)));
+        kinds[emits && hierarchy != BakeHierarchy::paper ? 1 : 0].push_back(i);
     }
+    Joins joins;
+    std::vector<uint32_t> roots;
+    for (const std::vector<uint32_t>& kind : kinds) {
+        if (kind.empty()) continue;
+        std::vector<Cluster> members;
+        for (const uint32_t i : kind) members.push_back(clusters[i]);
+        const auto first = uint32_t(clusters.size() + joins.size()), count = uint32_t(kind.size());
+        const auto number = [&](uint32_t member) {
+            return member < count ? kind[member] : first + member - count;
+        };
+        for (const auto& [a, b] : shallowJoins(members, hierarchy, threads))
+            joins.push_back({number(a), number(b)});
+        roots.push_back(number(2 * count - 2));
+    }
+    if (roots.size() == 2) joins.push_back({roots[0], roots[1]});
+    return joins;
+}
+
+SurfelTree build(std::span<const Surfel> surfels, BakeHierarchy hierarchy, int threads) {
+    const Joins joins = joinsOf(surfels, hierarchy, threads);
+    const std::vector<NodeSum> sums = detail::sumsOf(surfels.size(), joins);
     SurfelTree tree;
     const Numbering numbering = number(surfels.size(), joins, sums, stagesOf(sums));
     fillNodes(surfels, joins, numbering, tree);

@@ -14,7 +14,6 @@ Cluster joined(const Cluster& a, const Cluster& b) {
     both.normal = glm::mix(a.normal, b.normal, share);
     both.open = glm::mix(a.open, b.open, share);
     both.prospect = glm::mix(a.prospect, b.prospect, share);
-    both.emitting = glm::mix(a.emitting, b.emitting, share);
     return both;
 }
 
@@ -26,7 +25,6 @@ ClusterPoint pointOf(const Cluster& cluster, double diagonal, const ClusterWeigh
     ClusterPoint point;
     for (size_t i = 0; i < vectors.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) point[3 * i + size_t(axis)] = vectors[i][axis];
-    point.back() = cluster.emitting * std::sqrt(weights.emission);
     return point;
 }
 

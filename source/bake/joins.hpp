@@ -17,7 +17,6 @@ struct Cluster {
     glm::dvec3 normal{0.0};   // mean by area
     glm::dvec3 open{0.0};     // mean by area of Surfel::open
     glm::dvec3 prospect{0.0}; // mean by area of Surfel::prospect [m]
-    double emitting = 0.0;    // share of the area that emits
     double area = 0.0;        // [m^2]
     uint32_t surfels = 1;
 };
@@ -26,21 +25,20 @@ Cluster joined(const Cluster&, const Cluster&);
 
 // How much counts, beside places over the scene's diagonal, in the distance between clusters:
 //   |x_a - x_b|^2 / diagonal^2 + normal (1 - n_a . n_b) + balance |A_a - A_b| / max(A_a, A_b)        [PIC, sec. 4.3]
-//       + open |o_a - o_b|^2 + emission (e_a - e_b)^2 + prospect |p_a - p_b|^2 / diagonal^2
-// The last three are ours: links take a cluster for evenly bright, so what light reaches by other ways is to stay apart.
+//       + open |o_a - o_b|^2 + prospect |p_a - p_b|^2 / diagonal^2
+// The last two are ours: links take a cluster for evenly bright, so what light reaches by other ways is to stay apart.
 // Without prospects the floors on both sides of a wall join, and what lights one shines from the other (the paper's figure
 // 7c).
 struct ClusterWeights {
     double normal = 0.1;   // C_n
     double balance = 0.02; // C_b
     double open = 0.0;
-    double emission = 0.0;
     double prospect = 0.0;
 };
 
 // In which the squared distance of two surfels is all of the above but the balance: place over the diagonal, normal times
-// sqrt(C_n / 2), the open, prospect, emission.
-using ClusterPoint = std::array<double, 13>;
+// sqrt(C_n / 2), the open, prospect.
+using ClusterPoint = std::array<double, 12>;
 ClusterPoint pointOf(const Cluster&, double diagonal, const ClusterWeights&);
 
 // Of the box around all places [m].
