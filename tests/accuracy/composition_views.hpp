@@ -91,7 +91,8 @@ std::optional<double> checkComposition(Wanted wanted) {
     double sum = 0.0;
     for (const BakedView& view : views) {
         CAPTURE(view.name);
-        const ImageError error = errorOf(composed(view, {}), view.reference);
+        const lab::Image mask = comparablePixels(view.reference.frame, view.reference.truth);
+        const ImageError error = errorOf(composed(view, {}), view.reference, mask);
         const double relative = withoutNoise(error.relativeRmse, view.noise);
         std::printf("%-24s %6.3f %6.3f\n", view.name.c_str(), relative, error.mean);
         sum += relative;

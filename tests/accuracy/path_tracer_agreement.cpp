@@ -15,17 +15,6 @@
 namespace rebound::accuracy {
 namespace {
 
-// 1 where both renderers can be compared. Where two of a scene's triangles coincide, rays of the reference that leave one
-// end at its twin, and the pixel is black; ours start behind it.
-lab::Image comparablePixels(const lab::Frame& frame, const lab::Image& indirect) {
-    lab::Image mask(frame.depth.extent(), 1);
-    for (size_t i = 0; i < mask.data.size(); ++i) {
-        const bool isLit = frame.direct.data[3 * i] > 0.0f || indirect.data[3 * i] > 0.0f;
-        mask.data[i] = frame.depth.data[i] > 0.0f && isLit ? 1.0f : 0.0f;
-    }
-    return mask;
-}
-
 // Means over squares of that many pixels, of those that can be compared.
 lab::Image blockMeans(const lab::Image& image, const lab::Image& mask, int size) {
     lab::Image blocks({image.width / size, image.height / size}, 3);

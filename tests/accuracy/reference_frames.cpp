@@ -55,13 +55,22 @@ lab::Image gather(const ReferenceView& view, ScreenIndirectSettings settings) {
     return result;
 }
 
-ImageError errorOf(const lab::Image& result, const ReferenceView& view) {
+lab::Image comparablePixels(const lab::Frame& frame, const lab::Image& indirect) {
+    lab::Image mask(frame.depth.extent(), 1);
+    for (size_t i = 0; i < mask.data.size(); ++i) {
+        const bool isLit = frame.direct.data[3 * i] > 0.0f || indirect.data[3 * i] > 0.0f;
+        mask.data[i] = frame.depth.data[i] > 0.0f && isLit ? 1.0f : 0.0f;
+    }
+    return mask;
+}
+
+ImageError errorOf(const lab::Image& result, const ReferenceView& view, const lab::Image& mask) {
     const bool hasHalves = !view.halves[0].empty();
     const lab::Image& first = hasHalves ? view.halves[0] : view.truth;
     const lab::Image& second = hasHalves ? view.halves[1] : view.truth;
     double squared = 0, truth = 0, sum = 0, count = 0;
     for (size_t pixel = 0; pixel < view.frame.depth.data.size(); ++pixel) {
-        if (view.frame.depth.data[pixel] <= 0.0f) continue;
+        if (mask.data[pixel] <= 0.0f) continue;
         for (size_t c = 0; c < 3; ++c) {
             const double r = result.data[3 * pixel + c], t = view.truth.data[3 * pixel + c];
             squared += (r - double(first.data[3 * pixel + c])) * (r - double(second.data[3 * pixel + c]));
@@ -71,6 +80,10 @@ ImageError errorOf(const lab::Image& result, const ReferenceView& view) {
         }
     }
     return {std::sqrt(squared / count) / (truth / count), sum / truth};
+}
+
+ImageError errorOf(const lab::Image& result, const ReferenceView& view) {
+    return errorOf(result, view, view.frame.depth);
 }
 
 } // namespace rebound::accuracy

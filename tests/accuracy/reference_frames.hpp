@@ -12,7 +12,7 @@
 
 namespace rebound::accuracy {
 
-// Over all pixels that see a surface and all three channels.
+// Over pixels that count and all three channels.
 struct ImageError {
     double relativeRmse = 0; // root of the mean squared error over the truth's mean
     double mean = 0;         // the result's mean over the truth's
@@ -34,7 +34,12 @@ std::vector<ReferenceView> loadReferenceViews(const std::filesystem::path& share
 // E / pi by the technique at these settings on the CPU, from radiance albedo * direct.
 lab::Image gather(const ReferenceView&, ScreenIndirectSettings);
 
-// Halves take the truth's noise out of the relative RMSE.
+// 1 where results can be compared with the reference's indirect light. Where two of a scene's triangles coincide, rays of the
+// reference that leave one end at its twin, and the pixel is black.
+lab::Image comparablePixels(const lab::Frame&, const lab::Image& indirect);
+
+// Of pixels that see a surface, or of those where the mask is above 0. Halves take the truth's noise out of the relative RMSE.
 ImageError errorOf(const lab::Image& result, const ReferenceView&);
+ImageError errorOf(const lab::Image& result, const ReferenceView&, const lab::Image& mask);
 
 } // namespace rebound::accuracy
