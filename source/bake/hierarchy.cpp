@@ -100,6 +100,7 @@ void fillNodes(std::span<const Surfel> surfels, const Joins& joins, const Number
         if (cluster < surfels.size()) {
             node.firstLeaf = i;
             node.lower = node.upper = surfels[cluster].position;
+            node.emission = glm::dot(surfels[cluster].emission, glm::vec3(1.0f / 3.0f));
             continue;
         }
         const auto& join = joins[cluster - surfels.size()];
@@ -109,6 +110,7 @@ void fillNodes(std::span<const Surfel> surfels, const Joins& joins, const Number
         node.firstLeaf = std::min(a.firstLeaf, b.firstLeaf);
         node.lower = glm::min(a.lower, b.lower);
         node.upper = glm::max(a.upper, b.upper);
+        node.emission = glm::mix(a.emission, b.emission, b.area / (a.area + b.area));
     }
     tree.order.assign(numbering.clusterOf.begin(),
                       numbering.clusterOf.begin() + std::ptrdiff_t(surfels.size()));

@@ -17,8 +17,8 @@ namespace {
 
 // How much more readily a node is split of which nothing is seen but one ray's worth.
 constexpr float hiddenWeight = 4.0f;
-// Of rays in all directions, as many would have to meet a lamp to tell how large it looks.
-constexpr double fewestRays = 4.0;
+// Of rays in all directions, as many would have to meet a lamp's surfel, or all that emits together, to tell how large it looks.
+constexpr double fewestRays = 4.0, fewestRaysOfAll = 64.0;
 constexpr size_t mostLampRays = 256; // of a cache; of more lamps, every n-th stands for n
 
 // Any rotation is as likely: neighbouring caches, of which receivers take a mean, do not err alike.
@@ -96,14 +96,27 @@ void LinkCutter::lookAtSurfels(glm::vec3 cache) {
     }
 }
 
-// Lamps that few rays met, if any, are met by one each instead.
+// The solid angle from which what emits would light a cache as evenly as it does: (sum L w)^2 / sum L^2 w of surfels that send
+// L from w [sr].
+double LinkCutter::emittingAngle() const {
+    double first = 0.0, second = 0.0;
+    for (const uint32_t leaf : emitters) {
+        const double open = openAngle[leaf + 1] - openAngle[leaf], sent = double(tree.nodes[leaf].emission);
+        first += sent * open;
+        second += sent * sent * open;
+    }
+    return second > 0.0 ? first * first / second : 0.0;
+}
+
+// Where few rays met most of what emits, its surfels are met by one each instead, but for those that look large.
 void LinkCutter::lookAtSmallLamps(glm::vec3 cache) {
     const double solidAngle = 4.0 * std::numbers::pi / double(evenDirections.size());
     lamps.clear();
-    for (const uint32_t leaf : emitters) {
-        const double open = openAngle[leaf + 1] - openAngle[leaf];
-        if (open > 0.0 && open < fewestRays * solidAngle) lamps.push_back(leaf);
-    }
+    if (emittingAngle() < fewestRaysOfAll * solidAngle)
+        for (const uint32_t leaf : emitters) {
+            const double open = openAngle[leaf + 1] - openAngle[leaf];
+            if (open > 0.0 && open < fewestRays * solidAngle) lamps.push_back(leaf);
+        }
     if (!lamps.empty()) {
         std::erase_if(
             hits, [&](const Hit& hit) { return std::binary_search(lamps.begin(), lamps.end(), hit.leaf); });

@@ -52,6 +52,7 @@ private:
     Piece hitsOf(uint32_t node, const Piece& parent) const;
     Piece narrow(Piece) const;
     void lookAtSurfels(glm::vec3 cache);
+    double emittingAngle() const;
     void lookAtSmallLamps(glm::vec3 cache);
     double seenAngle(const Piece&) const;
     float hiddenShare(const Piece&) const;

@@ -26,6 +26,7 @@ struct SurfelNode {
     uint32_t leaves = 1;
     glm::vec3 upper{0.0f};
     std::array<uint32_t, 2> children{}; // numbers of nodes, lower than its own; of inner nodes only
+    float emission = 0.0f;              // mean by area and of the three channels [W m^-2 sr^-1]
 
     bool isLeaf() const { return leaves == 1; }
 };
