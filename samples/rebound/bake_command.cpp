@@ -3,6 +3,7 @@
 #include "frame_source.hpp"
 #include "lab/baking/bake_of_scene.hpp"
 #include "lab/baking/bake_pictures.hpp"
+#include "lab/baking/map_places.hpp"
 #include "lab/techniques/bake_settings.hpp"
 #include "options.hpp"
 #include "output_folder.hpp"
@@ -40,6 +41,12 @@ std::string sizeTable(const Bake& bake) {
     return text + formatted("%-14s %10.3f MiB\n", "all", double(total) / 1048576.0);
 }
 
+std::string mapLine(const BakeLayout& layout) {
+    if (layout.surfaceCaches == 0) return {};
+    return formatted("%u in a light map of %u x %u texels of %.3g m, ", layout.surfaceCaches,
+                     layout.mapSize.x, layout.mapSize.y, double(layout.mapTexel));
+}
+
 // The scene has to outlive its rays.
 Result<Bake> bakeSource(const lab::Scene& scene, BakeSettings settings) {
     auto rays = lab::EmbreeScene::build(scene);
@@ -56,7 +63,13 @@ Result<> show(const Bake& bake, const SourcedView& view, Extent2D extent, const 
     const auto frame = lab::renderFrame(view.scene, view.camera,
                                         {.extent = extent, .lightSamples = 1, .threads = options.threads});
     if (!frame) return frame.error();
-    const std::vector<lab::NamedPicture> pictures = lab::picturesOf(bake, *frame);
+    lab::Image mapPlaces;
+    if (bake.layout.surfaceCaches > 0) {
+        const auto rays = lab::EmbreeScene::build(view.scene);
+        if (!rays) return rays.error();
+        mapPlaces = lab::mapPlacesOf(bake, *rays, *frame, options.threads);
+    }
+    const std::vector<lab::NamedPicture> pictures = lab::picturesOf(bake, *frame, mapPlaces);
     std::vector<OutputFile> files;
     std::vector<lab::CaptionedPicture> captioned;
     for (const lab::NamedPicture& drawn : pictures) {
@@ -92,9 +105,9 @@ Result<> bake(const BakeOptions& options) {
     if (!options.show.empty())
         if (auto shown = show(*baked, *view, *extent, options); !shown) return shown;
     const BakeLayout& layout = baked->layout;
-    std::cout << options.source.scene << ": " << layout.surfels << " surfels, " << layout.caches
+    std::cout << options.source.scene << ": " << layout.surfels << " surfels, " << layout.gridCaches()
               << " caches in " << layout.cells << formatted(" cells of %.3g m, ", double(layout.spacing))
-              << layout.links << " links each, " << layout.bands << " bands\n"
+              << mapLine(layout) << layout.links << " links each, " << layout.bands << " bands\n"
               << sizeTable(*baked) << formatted("baked in %.1f s", took.count());
     for (const std::string& place : {options.out, options.show})
         if (!place.empty()) std::cout << ", written to " << place;
@@ -126,8 +139,8 @@ Command addBakeCommand(CLI::App& program) {
         ->group(deviceGroup);
     app->add_option("--out", options->out, "the file to write")->option_text("FILE")->group("Output");
     app->add_option("--show", options->show,
-                    "a folder for pictures of what was baked: surfels, patches of the tree, caches, and\n"
-                    "the links of the cache nearest to the picture's middle")
+                    "a folder for pictures of what was baked: surfels, patches of the tree, caches,\n"
+                    "the links of the cache nearest to the picture's middle, and the light map's texels")
         ->option_text("DIR")
         ->group("Output");
     app->add_option("--size", options->size, "of these pictures [pixels] (default: 1280x720)")

@@ -78,7 +78,8 @@ Result<> validateCells(const Bake& bake) {
     const std::span<const uint32_t> cells = bake.section(BakeSection::cells);
     for (size_t c = 0; c < l.cells; ++c) {
         const std::span<const uint32_t> cell = cells.subspan(12 * c, 12);
-        if (auto corners = validateIndices(BakeSection::cells, cell.first(8), 12 * c, l.caches - 1, noCache);
+        if (auto corners =
+                validateIndices(BakeSection::cells, cell.first(8), 12 * c, l.gridCaches() - 1, noCache);
             !corners)
             return corners;
         for (int axis = 0; axis < 3; ++axis)
@@ -91,6 +92,18 @@ Result<> validateCells(const Bake& bake) {
                              std::to_string(uint64_t(cell[9]) + cell[10]),
                              "at most " + std::to_string(l.receivers));
     }
+    return {};
+}
+
+Result<> validateMapTexels(const Bake& bake) {
+    const BakeLayout& l = bake.layout;
+    const std::span<const uint32_t> texels = bake.section(BakeSection::mapTexels);
+    for (size_t i = 0; i < texels.size(); ++i)
+        if (const uint32_t cache = texels[i] & 0xffffffu;
+            cache != BakeLayout::noMapCache && (cache < l.gridCaches() || cache >= l.caches))
+            return wrongBake(
+                numberName(BakeSection::mapTexels, i), "the texel of cache " + std::to_string(cache),
+                "one of " + std::to_string(l.gridCaches()) + " to " + std::to_string(l.caches - 1));
     return {};
 }
 
@@ -121,6 +134,7 @@ Result<> validate(const Bake& bake) {
         if (auto numbers = validateNumbers(section, bake.section(section), section == BakeSection::places);
             !numbers)
             return numbers;
+    if (auto texels = validateMapTexels(bake); !texels) return texels;
     return validateCells(bake);
 }
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr char magic[8] = {'R', 'B', 'N', 'D', 'B', 'A', 'K', 'E'};
 constexpr size_t checksumStart = sizeof magic, checksumEnd = checksumStart + 16;
-constexpr uint32_t fileVersion = 1; // counts changes of BakeLayout, of sections and of this header
+constexpr uint32_t fileVersion = 2; // counts changes of BakeLayout, of sections and of this header
 constexpr uint64_t sectionAlignment = 64;
 
 struct FileHeader {
@@ -37,7 +37,7 @@ struct FileHeader {
     BakeLayout layout;
 };
 // Written as it lies in memory: whole words without gaps.
-static_assert(sizeof(BakeLayout) == 4 * size_t{3 + 4 * maximumBakeStages + 18} &&
+static_assert(sizeof(BakeLayout) == 4 * size_t{3 + 4 * maximumBakeStages + 24} &&
                   std::is_trivially_copyable_v<BakeLayout>,
               "a new layout needs a new fileVersion, and this sum changed");
 static_assert(offsetof(FileHeader, layout) == 16 + 8 * bakeSectionCount);

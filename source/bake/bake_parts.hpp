@@ -2,11 +2,17 @@
 // bakeScene() with what only tests ask for.
 #pragma once
 
+#include "light_map_places.hpp"
+
 #include "rebound/bake/bake_scene.hpp"
 
 namespace rebound::detail {
 
-// gridShift: of the grid along each axis [spacings].
-Result<Bake> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&, float gridShift);
+struct BakeExperiments {
+    float gridShift = 0.0f; // of the grid along each axis [spacings]
+    MapRemedies map;
+};
+
+Result<Bake> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&, const BakeExperiments&);
 
 } // namespace rebound::detail

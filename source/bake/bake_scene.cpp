@@ -2,6 +2,7 @@
 #include "rebound/bake/bake_scene.hpp"
 
 #include "bake_parts.hpp"
+#include "light_map.hpp"
 #include "links.hpp"
 #include "receivers.hpp"
 
@@ -79,8 +80,30 @@ std::vector<uint32_t> emittersOf(const SurfelTree& tree, const std::vector<Surfe
     return leaves;
 }
 
+// Caches of the map behind those of the grid.
+void append(const LightMap& map, std::vector<glm::vec3>& caches, std::vector<glm::vec3>& normals) {
+    for (const SurfacePlace& place : map.caches) {
+        caches.push_back(place.position);
+        normals.push_back(place.normal);
+    }
+}
+
+std::vector<uint32_t> numberedFrom(uint32_t first, std::vector<uint32_t> texels) {
+    for (uint32_t& texel : texels)
+        if ((texel & BakeLayout::noMapCache) != BakeLayout::noMapCache) texel += first;
+    return texels;
+}
+
+void setMap(BakeLayout& layout, const LightMap& map) {
+    layout.surfaceCaches = uint32_t(map.caches.size());
+    layout.mapSize = map.size;
+    layout.mapBackRow = map.backRow;
+    layout.mapTriangles = uint32_t(map.corners.size() / 3);
+    layout.mapTexel = map.texel;
+}
+
 Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, const BakeSettings& settings,
-                       float gridShift) {
+                       const BakeExperiments& experiments) {
     const auto report = [&](std::string_view what, double share) {
         if (settings.progress) settings.progress(what, share);
     };
@@ -94,7 +117,7 @@ Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, cons
     report("grid", 0.0);
     const Surroundings around(geometry, rays);
     const ReceivingSides receiving = findReceivingSides(geometry, rays, settings);
-    auto grid = chooseCells(geometry, receiving, settings, gridShift);
+    auto grid = chooseCells(geometry, receiving, settings, experiments.gridShift);
     if (!grid) return grid.error();
     report("caches", 0.0);
     const std::vector<CachePlace> places = placeCaches(around, *grid, settings.threads);
@@ -107,12 +130,19 @@ Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, cons
     report("receivers", 0.0);
     const Receivers receivers =
         gatherReceivers(around, grid->lattice, table, receiving.sides, settings.threads);
-    LinkSections links = linkCaches(around, table.caches, *tree, emittersOf(*tree, *surfels), settings,
+    LightMap map;
+    if (settings.lightMap > 0) {
+        report("light map", 0.0);
+        map = mapLight(around, settings, experiments.map);
+    }
+    std::vector<glm::vec3> caches = table.caches, normals;
+    append(map, caches, normals);
+    LinkSections links = linkCaches(around, caches, normals, *tree, emittersOf(*tree, *surfels), settings,
                                     [&](double share) { report("links", share); });
 
     BakeLayout layout;
     setTree(layout, *tree);
-    layout.caches = uint32_t(table.caches.size());
+    layout.caches = uint32_t(caches.size());
     layout.links = settings.links;
     layout.bands = settings.bands;
     layout.linkForm = settings.linkForm;
@@ -123,21 +153,23 @@ Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, cons
     layout.cells = uint32_t(table.cells.size());
     layout.receivers = uint32_t(receivers.receivers.size());
     layout.geometry = fingerprintOf(geometry);
+    setMap(layout, map);
     // In the order of BakeSection.
-    return assemble(layout, {packSurfels(*tree, *surfels), std::move(tree->terms), std::move(links.nodes),
-                             std::move(links.factors), std::move(links.shapes), packPlaces(table.caches),
-                             table.brickOf, table.cellOf, packCells(table.cells, receivers.first),
-                             packReceivers(receivers.receivers)});
+    return assemble(
+        layout, {packSurfels(*tree, *surfels), std::move(tree->terms), std::move(links.nodes),
+                 std::move(links.factors), std::move(links.shapes), packPlaces(caches), table.brickOf,
+                 table.cellOf, packCells(table.cells, receivers.first), packReceivers(receivers.receivers),
+                 numberedFrom(uint32_t(table.caches.size()), std::move(map.texels)), std::move(map.corners)});
 }
 
 } // namespace
 
 Result<Bake> detail::bakeScene(const BakeGeometry& geometry, const RayCaster& rays,
-                               const BakeSettings& settings, float gridShift) {
+                               const BakeSettings& settings, const BakeExperiments& experiments) {
     if (auto valid = validate(settings); !valid) return valid.error();
     if (auto valid = validate(geometry); !valid) return valid.error();
     try {
-        return bakeValid(geometry, rays, settings, gridShift);
+        return bakeValid(geometry, rays, settings, experiments);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::outOfMemory, "memory is too short for a bake of " +
                                                  std::to_string(settings.surfels) + " surfels and " +
@@ -147,7 +179,7 @@ Result<Bake> detail::bakeScene(const BakeGeometry& geometry, const RayCaster& ra
 }
 
 Result<Bake> bakeScene(const BakeGeometry& geometry, const RayCaster& rays, const BakeSettings& settings) {
-    return detail::bakeScene(geometry, rays, settings, 0.0f);
+    return detail::bakeScene(geometry, rays, settings, detail::BakeExperiments{});
 }
 
 } // namespace rebound

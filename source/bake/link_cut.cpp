@@ -40,8 +40,8 @@ LinkCutter::LinkCutter(const Surroundings& surroundings, const SurfelTree& surfe
     : around(surroundings), tree(surfelTree), lookup(surfelLookup), emitters(leavesThatEmit),
       links(settings.links), evenDirections(sphereDirections(settings.links * settings.raysPerLink)) {}
 
-const std::vector<SeenSender>& LinkCutter::cut(glm::vec3 cache, uint32_t index) {
-    castRays(cache, index);
+const std::vector<SeenSender>& LinkCutter::cut(glm::vec3 cache, glm::vec3 normal, uint32_t index) {
+    castRays(cache, normal, index);
     lookAtSurfels(cache);
     lookAtSmallLamps(cache);
     choosePieces();
@@ -49,17 +49,21 @@ const std::vector<SeenSender>& LinkCutter::cut(glm::vec3 cache, uint32_t index) 
     return senders;
 }
 
-void LinkCutter::castRays(glm::vec3 cache, uint32_t index) {
+void LinkCutter::castRays(glm::vec3 cache, glm::vec3 surfaceNormal, uint32_t index) {
     const glm::mat3 rotation = rotationOf(index);
     rays.assign(evenDirections.size(), {});
     met.resize(rays.size());
     for (size_t i = 0; i < rays.size(); ++i) {
         rays[i].origin = cache;
         rays[i].direction = glm::normalize(rotation * evenDirections[i]);
+        // Mirrored at the surface, those below it are between those above.
+        if (const float below = glm::dot(rays[i].direction, surfaceNormal); below < 0.0f)
+            rays[i].direction = glm::normalize(rays[i].direction - 2.0f * below * surfaceNormal);
     }
     around.rays.intersect(rays, met);
     hits.clear();
-    const float solidAngle = float(4.0 * std::numbers::pi / double(rays.size()));
+    const double sphereShare = surfaceNormal == glm::vec3(0.0f) ? 1.0 : 0.5;
+    solidAngle = float(sphereShare * 4.0 * std::numbers::pi / double(rays.size()));
     for (uint32_t i = 0; i < rays.size(); ++i) {
         if (met[i].triangle == noTriangle) continue;
         glm::vec3 normal = around.normalOf(met[i].triangle);
@@ -110,12 +114,11 @@ double LinkCutter::emittingAngle() const {
 
 // Where few rays met most of what emits, its surfels are met by one each instead, but for those that look large.
 void LinkCutter::lookAtSmallLamps(glm::vec3 cache) {
-    const double solidAngle = 4.0 * std::numbers::pi / double(evenDirections.size());
     lamps.clear();
-    if (emittingAngle() < fewestRaysOfAll * solidAngle)
+    if (emittingAngle() < fewestRaysOfAll * double(solidAngle))
         for (const uint32_t leaf : emitters) {
             const double open = openAngle[leaf + 1] - openAngle[leaf];
-            if (open > 0.0 && open < fewestRays * solidAngle) lamps.push_back(leaf);
+            if (open > 0.0 && open < fewestRays * double(solidAngle)) lamps.push_back(leaf);
         }
     if (!lamps.empty()) {
         std::erase_if(

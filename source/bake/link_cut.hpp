@@ -34,7 +34,8 @@ public:
                std::span<const uint32_t> emitters, const BakeSettings&);
 
     // At most settings.links, by ascending node. index: of the cache, which turns its rays.
-    const std::vector<SeenSender>& cut(glm::vec3 cache, uint32_t index);
+    // normal: of the surface that it lies on, before which alone it sees anything; 0: it sees all around.
+    const std::vector<SeenSender>& cut(glm::vec3 cache, glm::vec3 normal, uint32_t index);
 
 private:
     struct Hit {
@@ -48,7 +49,7 @@ private:
         bool isSeen() const { return last > first; }
     };
 
-    void castRays(glm::vec3 cache, uint32_t index);
+    void castRays(glm::vec3 cache, glm::vec3 normal, uint32_t index);
     Piece hitsOf(uint32_t node, const Piece& parent) const;
     Piece narrow(Piece) const;
     void lookAtSurfels(glm::vec3 cache);
@@ -66,6 +67,7 @@ private:
     const uint32_t links;
     const std::vector<glm::vec3> evenDirections;
 
+    float solidAngle = 0.0f; // that each ray of a cache stands for [sr]
     std::vector<BakeRay> rays;
     std::vector<BakeHit> met;
     std::vector<uint8_t> hidden;

@@ -39,7 +39,8 @@ uint32_t shapeWord(const std::array<float, 16>& c, const BakeLayout& layout, uin
 
 } // namespace
 
-LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> caches, const SurfelTree& tree,
+LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> caches,
+                        std::span<const glm::vec3> normals, const SurfelTree& tree,
                         std::span<const uint32_t> emitters, const BakeSettings& settings,
                         const std::function<void(double)>& progress) {
     BakeLayout layout;
@@ -61,7 +62,11 @@ LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> c
         [&](size_t first, size_t last) {
             LinkCutter cutter(around, tree, lookup, emitters, settings);
             for (size_t cache = first; cache < last; ++cache) {
-                const std::vector<SeenSender>& senders = cutter.cut(caches[cache], uint32_t(cache));
+                const size_t onSurfaces = caches.size() - normals.size();
+                const glm::vec3 normal = cache < onSurfaces ? glm::vec3(0.0f) : normals[cache - onSurfaces];
+                // Texels beside each other look the same ways: what they err by changes slowly, and no texel stands out.
+                const uint32_t rotation = cache < onSurfaces ? uint32_t(cache) : 0u;
+                const std::vector<SeenSender>& senders = cutter.cut(caches[cache], normal, rotation);
                 for (size_t j = 0; j < senders.size(); ++j) {
                     const SeenSender& sender = senders[j];
                     const size_t at = BakeLayout::ofCache(cache, j, layout.links);

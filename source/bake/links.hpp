@@ -21,8 +21,10 @@ struct LinkSections {
     std::vector<uint32_t> nodes, factors, shapes;
 };
 
-// emitters: leaves of the tree that emit, ascending. progress: share of caches that have theirs.
-LinkSections linkCaches(const Surroundings&, std::span<const glm::vec3> caches, const SurfelTree&,
+// normals: of the last caches, which lie on surfaces, as many as there are. emitters: leaves of the tree that emit,
+// ascending. progress: share of caches that have theirs.
+LinkSections linkCaches(const Surroundings&, std::span<const glm::vec3> caches,
+                        std::span<const glm::vec3> normals, const SurfelTree&,
                         std::span<const uint32_t> emitters, const BakeSettings&,
                         const std::function<void(double)>& progress);
 

@@ -24,6 +24,7 @@ Result<> validate(const BakeSettings& settings) {
     for (const Result<>& check : {
              checkRange("surfels", settings.surfels, 1u, 1u << 20),
              checkRange("caches", settings.caches, 8u, 1u << 24),
+             checkRange("lightMap", settings.lightMap, 0u, 1u << 20),
              checkRange("links", settings.links, 1u, 4096u),
              checkRange("bands", settings.bands, 2u, 4u),
              checkRange("raysPerLink", settings.raysPerLink, 1u, 1024u),

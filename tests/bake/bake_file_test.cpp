@@ -101,7 +101,7 @@ TEST_CASE("what is no bake of this version is refused with what it is") {
     REQUIRE(writeBake(bakeOf(closedBox(), fewest()), folder / "whole"));
     std::string next = lab::readText(folder / "whole");
     ++next[24];
-    CHECK(message(next).find("version 2; version 1 was expected") != std::string::npos);
+    CHECK(message(next).find("version 3; version 2 was expected") != std::string::npos);
     CHECK(!readBake(folder / "absent"));
     CHECK(!readBake(folder.path()));
 }

@@ -47,7 +47,9 @@ void checkRefused(const OpenBake& good, const std::string& named,
 } // namespace
 
 TEST_CASE("a bake's numbers lie in their ranges, or it is refused and they are named") {
-    const OpenBake good{bakeOf(closedBox())};
+    BakeSettings settings = smallSettings();
+    settings.lightMap = 100;
+    const OpenBake good{bakeOf(closedBox(), settings)};
     REQUIRE(good.validated());
     const BakeLayout& l = good.layout;
     REQUIRE(l.stages > 1);
@@ -65,7 +67,9 @@ TEST_CASE("a bake's numbers lie in their ranges, or it is refused and they are n
     change(BakeSection::places, 2, infinity);
     change(BakeSection::bricks, 0, l.filledBricks);
     change(BakeSection::brickCells, 9, l.cells);
-    change(BakeSection::cells, 12 * (l.cells - 1), l.caches);
+    change(BakeSection::cells, 12 * (l.cells - 1), l.gridCaches());
+    change(BakeSection::mapTexels, 3, l.caches);
+    change(BakeSection::mapTexels, 3, l.gridCaches() - 1);
     change(BakeSection::terms, 0, l.stage[0].firstNode); // a node of its own stage
     change(BakeSection::terms, l.stage[1].firstTerm, l.nodes + 1);
     checkRefused(good, "place of cell", [&](OpenBake& bad) { bad[BakeSection::cells][8] = 4 * l.bricks.x; });
@@ -103,6 +107,11 @@ TEST_CASE("a layout's counts lie in their ranges, or the bake is refused and the
     spoil("cells", [](BakeLayout& l) { l.cells = 0; });
     spoil("receivers", [](BakeLayout& l) { l.receivers = 0xffffffffu; });
     spoil("spacing", [](BakeLayout& l) { l.spacing = 0.0f; });
+    spoil("surface caches", [](BakeLayout& l) { l.surfaceCaches = l.caches; });
+    spoil("light map's width", [](BakeLayout& l) { l.mapSize.x = 9; });
+    spoil("light map's row", [](BakeLayout& l) { l.mapBackRow = 1; });
+    spoil("mapped triangles", [](BakeLayout& l) { l.mapTriangles = 12; });
+    spoil("light map's texel", [](BakeLayout& l) { l.mapTexel = 1.0f; });
     spoil("origin", [](BakeLayout& l) { l.origin.z = std::numeric_limits<float>::quiet_NaN(); });
     spoil("section linkShapes", [](BakeLayout& l) { l.bands = 2; });
     spoil("section cells", [](BakeLayout& l) { --l.cells; });

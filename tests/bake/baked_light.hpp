@@ -86,6 +86,36 @@ public:
         return total > 0.0 ? sum / total : 0.0;
     }
 
+    // Irradiance over pi at a place of the light map [texels]: between the middles of four texels.
+    double atMap(glm::dvec2 place, glm::vec3 normal) const {
+        const glm::dvec2 first = glm::floor(place - 0.5), share = place - 0.5 - first;
+        double sum = 0.0;
+        for (int corner = 0; corner < 4; ++corner) {
+            const uint32_t texel = mapTexel(glm::ivec2(first) + glm::ivec2(corner & 1, corner >> 1));
+            const uint32_t cache = texel & rebound::BakeLayout::noMapCache;
+            if (cache == rebound::BakeLayout::noMapCache) continue;
+            sum += ((corner & 1) ? share.x : 1.0 - share.x) * ((corner >> 1) ? share.y : 1.0 - share.y) *
+                   irradiance(atCache(cache), normal);
+        }
+        return sum;
+    }
+    uint32_t mapTexel(glm::ivec2 texel) const {
+        return section(rebound::BakeSection::mapTexels)[size_t(texel.y) * layout.mapSize.x + size_t(texel.x)];
+    }
+    // Where a triangle's place lies in the map, as a front side [texels]. Precondition: it is in the map.
+    glm::dvec2 mapPlace(uint32_t triangle, glm::dvec2 barycentrics) const {
+        const auto corner = [&](size_t i) {
+            const uint32_t packed = section(rebound::BakeSection::mapCorners)[3 * size_t(triangle) + i];
+            return glm::dvec2(packed & 0xffffu, packed >> 16) / double(rebound::BakeLayout::mapStepsOfTexel);
+        };
+        return corner(0) + (corner(1) - corner(0)) * barycentrics.x +
+               (corner(2) - corner(0)) * barycentrics.y;
+    }
+    bool isInMap(uint32_t triangle) const {
+        return section(rebound::BakeSection::mapCorners)[3 * size_t(triangle)] !=
+               rebound::BakeLayout::notInMap;
+    }
+
     static double irradiance(const Coefficients& light, glm::vec3 normal) {
         const rebound::host::Harmonics lobe = rebound::host::lobe(normal, 1.0f);
         double sum = 0.0;

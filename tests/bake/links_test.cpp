@@ -36,17 +36,18 @@ struct Senders {
           surfels(*placeSurfels(geometry, rays, settings)),
           tree(*buildSurfelTree(surfels, settings.hierarchy, 2)) {}
 
-    // before: places that are looked at first.
+    // before: places that are looked at first. normal: of the surface that the place lies on.
     std::vector<SeenSender> cut(glm::vec3 place, uint32_t index = 0,
-                                std::initializer_list<glm::vec3> before = {}) const {
+                                std::initializer_list<glm::vec3> before = {},
+                                glm::vec3 normal = glm::vec3(0.0f)) const {
         const Surroundings around(geometry, rays);
         const SurfelLookup lookup(std::span(tree.nodes).first(surfels.size()));
         std::vector<uint32_t> emitters;
         for (uint32_t leaf = 0; leaf < surfels.size(); ++leaf)
             if (surfels[tree.order[leaf]].emission.x > 0.0f) emitters.push_back(leaf);
         LinkCutter cutter(around, tree, lookup, emitters, settings);
-        for (const glm::vec3 other : before) cutter.cut(other, 1);
-        return cutter.cut(place, index);
+        for (const glm::vec3 other : before) cutter.cut(other, glm::vec3(0.0f), 1);
+        return cutter.cut(place, normal, index);
     }
 };
 
@@ -57,6 +58,20 @@ double solidAngle(const std::vector<SeenSender>& senders) {
 }
 
 } // namespace
+
+TEST_CASE("a cache on a surface sees the half space before it, by all its rays") {
+    const Senders box(closedBox(), smallSettings());
+    const glm::vec3 normal(0, 1, 0);
+    double along = 0.0;
+    for (const SeenSender& sender : box.cut({1.3f, 0.003f, 2.1f}, 0, {}, normal)) {
+        along += double(sender.coefficients[1]); // of y: sqrt(3 / (4 pi)) times the mean cosine
+        CHECK(sender.coefficients[1] >= 0.0f);
+    }
+    CHECK(solidAngle(box.cut({1.3f, 0.003f, 2.1f}, 0, {}, normal)) ==
+          doctest::Approx(0.5 * sphere).epsilon(1e-5));
+    // The cosine over half a sphere is pi; 256 directions of an even set, mirrored.
+    CHECK(along == doctest::Approx(std::sqrt(3.0 / sphere) * std::numbers::pi).epsilon(0.01));
+}
 
 TEST_CASE("a cache's links cover the solid angle that surfaces cover") {
     const Senders box(closedBox(), smallSettings());
@@ -240,7 +255,7 @@ TEST_CASE("light that surfels differ in arrives as a sum over many more rays has
     for (uint32_t k = 0; k < 20; ++k) {
         const glm::vec3 place(0.3f + 0.17f * float(k), 0.4f + 0.1f * float(k), 0.5f + 0.2f * float(k));
         for (const glm::vec3 normal : {glm::vec3(0, -1, 0), {-1, 0, 0}, {0, 0, 1}}) {
-            const double expected = irradiance(every.cut(place, 0), normal);
+            const double expected = irradiance(every.cut(place, glm::vec3(0.0f), 0), normal);
             error += std::pow(irradiance(box.cut(place, k), normal) - expected, 2.0);
             total += expected * expected;
         }

@@ -60,13 +60,31 @@ TEST_CASE("a bake is the same for any number of threads, and lights a picture") 
 TEST_CASE("pictures of a bake are drawn") {
     const lab::TemporaryFolder folder;
     const Outcome shown =
-        run("bake builtin:cornell --surfels 600 --caches 300 --links 24 --show shown --size "
+        run("bake builtin:cornell --surfels 600 --caches 300 --lightmap 400 --links 24 --show shown --size "
             "96x54",
             folder.path());
     REQUIRE_MESSAGE(shown.exitCode == 0, shown.errors);
-    for (const char* name :
-         {"surfels", "patches_16", "patches_128", "patches_1024", "caches", "links", "contact_sheet"})
+    for (const char* name : {"surfels", "patches_16", "patches_128", "patches_1024", "caches", "links",
+                             "light_map", "contact_sheet"})
         CHECK(fs::file_size(folder.path() / "shown" / (std::string(name) + ".png")) > 100);
+}
+
+TEST_CASE("a light map gives nearly as much light as the grid of the same bake, and is read unless told "
+          "otherwise") {
+    const lab::TemporaryFolder folder;
+    REQUIRE(run(std::string(smallBake) + "map.bake --lightmap 1500", folder.path()).exitCode == 0);
+    double light[2];
+    for (const bool grid : {false, true}) {
+        const Outcome lit =
+            run("render builtin:cornell --technique composition --bake map.bake --size 160x90 "
+                "--out lit" +
+                    std::string(grid ? " --static-light grid" : ""),
+                folder.path());
+        REQUIRE_MESSAGE(lit.exitCode == 0, lit.errors);
+        light[grid ? 1 : 0] = meanOf(folder.path() / "lit" / "indirect.exr");
+    }
+    CHECK(light[0] != light[1]);
+    CHECK(light[0] == doctest::Approx(light[1]).epsilon(0.1)); // detail that a grid of few caches lacks
 }
 
 TEST_CASE("what cannot be baked or read is refused in one sentence") {
@@ -77,6 +95,9 @@ TEST_CASE("what cannot be baked or read is refused in one sentence") {
     refused("bake builtin:cornell", {"--out"});
     refused("bake builtin:cornell --links 0 --out x", {"--links", "0"});
     refused("bake builtin:cornell --bands 9 --out x", {"--bands", "9"});
+    refused("bake builtin:cornell --lightmap 2000000 --out x", {"--lightmap", "2000000", "1048576"});
+    refused("render builtin:cornell --technique composition --static-light map",
+            {"--static-light", "lightmap, grid"});
     refused("bake builtin:cornell --quality best --out x", {"--quality", "best", "moderate, high"});
     refused("bake builtin:cornell --hierarchy tree --out x", {"--hierarchy", "cluster, paper, kdtree"});
     refused("bake builtin:cornell --surfels 600 --caches 300 --links 24 --out missing/x", {"missing"});

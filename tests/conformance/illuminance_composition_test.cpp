@@ -25,15 +25,19 @@ struct Variant {
     uint32_t surfels, terms;
     bool bounces, emission, writeIndirect, compose;
     Projection projection;
+    uint32_t mapCaches; // 0: grid alone
 };
 
 const Variant variants[] = {
-    {2, LinkForm::coefficients, 1, 2, true, true, true, true, Projection::orthographic},
-    {3, LinkForm::coefficients, 130, 2, true, false, true, false, Projection::orthographic},
-    {4, LinkForm::coefficients, 75, 8, true, true, false, true, Projection::perspective},
-    {2, LinkForm::direction, 64, 3, false, true, true, true, Projection::perspective},
-    {3, LinkForm::direction, 300, 5, true, true, true, true, Projection::orthographic},
-    {4, LinkForm::direction, 33, 2, false, false, true, false, Projection::orthographic},
+    {2, LinkForm::coefficients, 1, 2, true, true, true, true, Projection::orthographic, 0},
+    {3, LinkForm::coefficients, 130, 2, true, false, true, false, Projection::orthographic, 0},
+    {4, LinkForm::coefficients, 75, 8, true, true, false, true, Projection::perspective, 0},
+    {2, LinkForm::direction, 64, 3, false, true, true, true, Projection::perspective, 0},
+    {3, LinkForm::direction, 300, 5, true, true, true, true, Projection::orthographic, 0},
+    {4, LinkForm::direction, 33, 2, false, false, true, false, Projection::orthographic, 0},
+    {3, LinkForm::coefficients, 90, 2, true, true, true, true, Projection::orthographic, 33},
+    {4, LinkForm::coefficients, 40, 3, true, false, true, false, Projection::perspective, 12},
+    {2, LinkForm::direction, 130, 2, false, true, false, true, Projection::perspective, 70},
 };
 
 std::vector<float> lightOf(Numbers32& random, uint32_t surfels) {
@@ -58,6 +62,12 @@ IlluminanceCompositionFrame<lab::Image> frameOf(Numbers32& random, const Bake& b
         frame.depth.data[i] = random.below(30) == 0 ? 0.0f : random.within(0.05f, 9.0f);
         const glm::vec3 n = random.direction();
         for (size_t c = 0; c < 3; ++c) frame.normal.data[3 * i + c] = n[int(c)];
+    }
+    if (v.mapCaches > 0) {
+        frame.mapPlace = lab::Image(extent, 2);
+        for (float& place : frame.mapPlace.data) place = random.within(-1.0f, 8.0f);
+        frame.mapPlace.data[8] = std::numeric_limits<float>::quiet_NaN();
+        frame.mapPlace.data[11] = std::numeric_limits<float>::infinity();
     }
     for (float& a : frame.albedo.data) a = random.unit();
     for (float& l : frame.lit.data) l = random.within(0.0f, 2.0f);
@@ -94,13 +104,14 @@ conformance::NamedCase caseOf(size_t number) {
                 const Variant& v = variants[number];
                 Numbers32 random(uint32_t(number) + 40);
                 const Bake bake =
-                    randomBake(uint32_t(number) + 7, v.bands, v.form, v.surfels, v.terms).pack();
+                    randomBake(uint32_t(number) + 7, v.bands, v.form, v.surfels, v.terms, v.mapCaches).pack();
                 IlluminanceCompositionSettings settings;
                 settings.resolution = extent;
                 settings.conventions.projection = v.projection;
                 settings.bake = bake.layout;
                 settings.bounces = v.bounces;
                 settings.emission = v.emission;
+                settings.lightMap = v.mapCaches > 0;
                 settings.writeIndirect = v.writeIndirect;
                 settings.compose = v.compose;
                 auto plan = planIlluminanceComposition(settings);

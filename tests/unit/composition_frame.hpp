@@ -27,14 +27,15 @@ class CompositionFrames {
 public:
     Bake bake;
     IlluminanceCompositionSettings settings;
-    Picture depth, normal, albedo, lit, indirect, composed;
+    Picture depth, normal, mapPlace, albedo, lit, indirect, composed;
     std::vector<float> light; // [3][surfel]
     Camera camera{glm::mat4(1.0f), glm::ortho(-1.0f, 9.0f, -1.0f, 9.0f, 0.1f, 100.0f)};
 
     CompositionFrames(cpu::Isa isa, const Bake& b, const IlluminanceCompositionSettings& s, int threads = 1)
         : bake(b), settings(s), depth(s.resolution, 1, 4.5f), normal(s.resolution, 3),
-          albedo(s.resolution, 3, 0.5f), lit(s.resolution, 3, 0.25f), indirect(s.resolution, 3, -7.0f),
-          composed(s.resolution, 3, -7.0f), light(3 * size_t(BakeLayout::stride(b.layout.surfels)), 1.0f) {
+          mapPlace(s.resolution, 2, -1.0f), albedo(s.resolution, 3, 0.5f), lit(s.resolution, 3, 0.25f),
+          indirect(s.resolution, 3, -7.0f), composed(s.resolution, 3, -7.0f),
+          light(3 * size_t(BakeLayout::stride(b.layout.surfels)), 1.0f) {
         for (size_t i = 2; i < normal.values.size(); i += 3) normal.values[i] = 1.0f;
         const auto valid = validate(bake.layout);
         REQUIRE_MESSAGE(valid, (valid ? "" : valid.error().message));
@@ -66,6 +67,7 @@ public:
         frame.camera = camera;
         frame.depth = depth.image();
         frame.normal = normal.image();
+        frame.mapPlace = mapPlace.image();
         frame.albedo = albedo.image();
         frame.lit = lit.image();
         frame.indirect = indirect.image();

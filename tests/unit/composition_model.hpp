@@ -32,6 +32,8 @@ public:
 
     // Irradiance over pi.
     glm::dvec3 at(glm::dvec3 position, glm::dvec3 normal) const;
+    // The same at a place of the light map, or, where that lies outside, of the grid.
+    glm::dvec3 at(glm::dvec2 mapPlace, glm::dvec3 position, glm::dvec3 normal) const;
 
     const std::vector<glm::dvec3>& nodeFlux() const { return nodes; }
     const std::array<glm::dvec3, 16>& cache(uint32_t c) const { return caches[c]; }
@@ -50,6 +52,13 @@ private:
         for (int c = 0; c < 3; ++c)
             if (!std::isfinite(v[c])) return glm::dvec3(0.0);
         return glm::clamp(v, 0.0, 65504.0);
+    }
+
+    glm::dvec3 irradiance(uint32_t cache, const std::array<double, 16>& y) const {
+        glm::dvec3 sum(0.0);
+        for (uint32_t i = 0; i < bake.layout.coefficients(); ++i)
+            sum += caches[cache][i] * y[i] * (i < 1 ? 1.0 : i < 4 ? 2.0 / 3.0 : i < 9 ? 0.25 : 0.0);
+        return sum;
     }
 
     glm::dvec3 sentBy(uint32_t i, const std::vector<float>& light) const {
@@ -170,13 +179,27 @@ inline glm::dvec3 CompositionModel::at(glm::dvec3 position, glm::dvec3 normal) c
     double kept = 0.0;
     for (uint32_t k = 0; k < 8; ++k) {
         if (weights[k] <= 1e-4 * total) continue;
-        glm::dvec3 irradiance(0.0);
-        for (uint32_t i = 0; i < l.coefficients(); ++i)
-            irradiance += caches[cell[k]][i] * y[i] * (i < 1 ? 1.0 : i < 4 ? 2.0 / 3.0 : i < 9 ? 0.25 : 0.0);
-        sum += irradiance * weights[k];
+        sum += irradiance(cell[k], y) * weights[k];
         kept += weights[k];
     }
     return glm::max(kept > 0.0 ? sum / kept : glm::dvec3(0.0), 0.0);
+}
+
+inline glm::dvec3 CompositionModel::at(glm::dvec2 mapPlace, glm::dvec3 position, glm::dvec3 normal) const {
+    const glm::dvec2 size(bake.layout.mapSize);
+    if (!(mapPlace.x >= 0.5 && mapPlace.y >= 0.5 && mapPlace.x <= size.x - 0.5 && mapPlace.y <= size.y - 0.5))
+        return at(position, normal);
+    const auto y = harmonics(normal);
+    glm::dvec3 sum(0.0);
+    for (uint32_t row = 0; row < bake.layout.mapSize.y; ++row)
+        for (uint32_t column = 0; column < bake.layout.mapSize.x; ++column) {
+            const glm::dvec2 off = glm::abs(glm::dvec2(column, row) + 0.5 - mapPlace);
+            const uint32_t cache =
+                number(BakeSection::mapTexels, row * bake.layout.mapSize.x + column) & 0xffffffu;
+            if (off.x >= 1.0 || off.y >= 1.0 || cache == 0xffffffu) continue;
+            sum += (1.0 - off.x) * (1.0 - off.y) * irradiance(cache, y);
+        }
+    return glm::max(sum, 0.0);
 }
 
 } // namespace rebound::test

@@ -43,6 +43,8 @@ TEST_CASE("composition: settings out of range are refused by name") {
           }) == "settings.resolution is 16385x1; 1x1 to 16384x16384 was expected");
     CHECK(refusalWith([](auto& s) { s.writeIndirect = false; }) ==
           "settings.writeIndirect and settings.compose are both false; one output was expected");
+    CHECK(refusalWith([](auto& s) { s.lightMap = true; }) ==
+          "settings.lightMap is true, but settings.bake has no light map; one that has was expected");
     CHECK(refusalWith([](auto& s) { s.bake = {}; }) ==
           "settings.bake: the bake's number of surfels is 0; 1 to 1048576 was expected");
     CHECK(refusalWith([](auto& s) { s.bake.bands = 5; }) ==
@@ -77,6 +79,24 @@ TEST_CASE("composition: a plan has a pass a step, and nothing of what is switche
     CHECK(resourceNamed(other, "indirect") == nullptr);
     // 9 coefficients of three colours, and one float to a multiple of four.
     CHECK(memoryUse(other)->persistent == settings.bake.caches * 28 * sizeof(float));
+}
+
+TEST_CASE("composition: without the light map, a bake that has one costs nothing for it") {
+    const Bake bake = randomBake(3, 3, LinkForm::coefficients, 20, 2, 40).pack();
+    auto settings = settingsFor(bake);
+    settings.bounces = true;
+    const Plan grid = planOf(settings);
+    CHECK(resourceNamed(grid, "map place") == nullptr);
+    CHECK(resourceNamed(grid, "mapTexels") == nullptr);
+    CHECK(resourceNamed(grid, "mapCorners") == nullptr);
+    CHECK(memoryUse(grid)->persistent == bake.layout.gridCaches() * 28 * sizeof(float));
+    settings.lightMap = true;
+    const Plan map = planOf(settings);
+    CHECK(resourceNamed(map, "map place")->channels == 2);
+    CHECK(resourceNamed(map, "mapTexels")->kind == ResourceKind::inputBuffer);
+    CHECK(resourceNamed(map, "mapCorners") == nullptr);
+    CHECK(memoryUse(map)->persistent == bake.layout.caches * 28 * sizeof(float));
+    CHECK(map.passes.size() == grid.passes.size());
 }
 
 TEST_CASE("composition: one surfel needs no stage, and no buffer of terms") {

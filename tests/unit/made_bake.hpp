@@ -67,6 +67,9 @@ struct MadeBake {
     std::vector<MadeCell> cells;
     std::vector<uint32_t> brickOf;     // by brick: the filled one in effect
     std::vector<uint32_t> cellOfBrick; // by filled brick, 64 each
+    uint32_t surfaceCaches = 0;        // the last ones
+    glm::uvec2 mapSize{0};
+    std::vector<uint32_t> mapTexels;
 
     uint32_t cellAt(glm::uvec3 place) const {
         const glm::uvec3 brick = place / 4u, within = place % 4u;
@@ -172,6 +175,10 @@ inline Bake MadeBake::pack() const {
     l.surfels = uint32_t(surfels.size());
     l.caches = uint32_t(caches.size());
     l.cells = uint32_t(cells.size());
+    l.surfaceCaches = surfaceCaches;
+    l.mapSize = mapSize;
+    l.mapTriangles = surfaceCaches > 0 ? 1 : 0;
+    l.mapTexel = surfaceCaches > 0 ? 1.0f : 0.0f;
     l.filledBricks = uint32_t(cellOfBrick.size() / 64);
     for (const MadeCache& c : caches) l.links = std::max(l.links, std::max(1u, uint32_t(c.links.size())));
     for (const MadeCell& c : cells) l.receivers += uint32_t(c.receivers.size());
@@ -200,6 +207,7 @@ inline Bake MadeBake::pack() const {
         }
     }
     section(BakeSection::bricks) = brickOf;
+    section(BakeSection::mapTexels) = mapTexels;
     section(BakeSection::brickCells) = cellOfBrick;
     uint32_t receiver = 0;
     for (uint32_t c = 0; c < l.cells; ++c) {

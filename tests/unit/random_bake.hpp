@@ -52,7 +52,21 @@ inline void scatterGrid(MadeBake& made, Numbers32& random) {
     }
 }
 
-inline MadeBake randomBake(uint32_t seed, uint32_t bands, LinkForm form, uint32_t surfels, uint32_t terms) {
+// Before links are made.
+inline void addMap(MadeBake& made, Numbers32& random, uint32_t caches) {
+    const uint32_t first = uint32_t(made.caches.size());
+    made.caches.resize(first + caches);
+    made.surfaceCaches = caches;
+    made.mapSize = {7, 5};
+    for (uint32_t i = 0; i < 35; ++i)
+        made.mapTexels.push_back(random.below(7) == 0
+                                     ? BakeLayout::noMapCache | random.below(5) << 24
+                                     : (first + random.below(caches)) | random.below(4) << 24);
+}
+
+// caches of its map: 0: it has none.
+inline MadeBake randomBake(uint32_t seed, uint32_t bands, LinkForm form, uint32_t surfels, uint32_t terms,
+                           uint32_t caches = 0) {
     Numbers32 random(seed);
     MadeBake made = wholeGrid(glm::uvec3(2, 1, 2), {0.0f, 2.0f, -8.0f});
     made.bands = bands;
@@ -64,6 +78,7 @@ inline MadeBake randomBake(uint32_t seed, uint32_t bands, LinkForm form, uint32_
                                 random.within(0.5f, 2.0f) / float(surfels), random.vector(0.0f, 0.9f),
                                 random.vector(0.0f, 2.0f)});
     scatterGrid(made, random);
+    if (caches > 0) addMap(made, random, caches);
     const uint32_t nodes = made.pack().layout.nodes;
     for (MadeCache& cache : made.caches)
         for (uint32_t j = random.below(9); j > 0; --j) {

@@ -50,6 +50,13 @@ struct BakeLayout {
     uint32_t cells = 0;        // that caches light; at least 1
     uint32_t receivers = 0;
     std::array<uint32_t, 4> geometry{}; // fingerprintOf() the geometry that was baked
+    // The light map: caches on surfaces, one a texel, or one for several.
+    uint32_t surfaceCaches = 0; // the last ones of all caches; 0: there is no map
+    glm::uvec2 mapSize{0};      // [texels], at most 2046 x 4092
+    uint32_t mapBackRow =
+        0; // rows from a texel of a front side to that of its back; 0: no back side is in the map
+    uint32_t mapTriangles = 0; // all of the geometry
+    float mapTexel = 0.0f;     // width of texels where surfaces are seen all around; wider elsewhere [m]
 
     uint32_t coefficients() const { return bands * bands; }
     // Numbers from one kind of a surfel's, a cache's or a stage's numbers to the next: whole groups of items.
@@ -58,6 +65,12 @@ struct BakeLayout {
     static constexpr size_t ofCache(size_t cache, size_t kind, size_t kinds) {
         return (cache / 16 * kinds + kind) * 16 + cache % 16;
     }
+    // Caches of the grid, the first ones.
+    uint32_t gridCaches() const { return caches - surfaceCaches; }
+    static constexpr uint32_t mapStepsOfTexel = 32;     // of coordinates in section mapCorners
+    static constexpr uint32_t noMapCache = 0xffffffu;   // of a texel, in its lower 24 bits
+    static constexpr uint32_t noMapTexel = 0xffffffffu; // of a texel that no side of a chart has
+    static constexpr uint32_t notInMap = 0xffffffffu;   // of a corner
     // 32-bit numbers in which a link keeps the coefficients above the first.
     uint32_t shapeWords() const {
         if (linkForm == LinkForm::direction) return 1;
@@ -98,8 +111,15 @@ enum class BakeSection {
     // 4 each, one behind the other: position within its cell (10 bits an axis, of -1 to 2 cells; x low), normal
     // (octahedral, as above), and which share of the cell's eight caches it sees, 8 bits each, corner 0 lowest (2).
     receivers,
+    // [mapSize.y][mapSize.x]. Lower 24 bits: number of the texel's cache; noMapCache: nothing arrives there. Upper 8: how
+    // it came to it: 0: stands in its middle; 1: elsewhere in it, as the middle lies behind or inside of something; 2: where
+    // the surface goes on beyond the chart; 3: is that of the nearest texel that has one; 4: has none.
+    mapTexels,
+    // [triangle][corner]: where it lies in the map, as a front side; x in the lower 16 bits, y in the upper ones, each in
+    // steps of 1 / mapStepsOfTexel texel. notInMap in all three corners: the triangle is lit by the grid.
+    mapCorners,
 };
-inline constexpr int bakeSectionCount = 10;
+inline constexpr int bakeSectionCount = 12;
 const char* name(BakeSection);
 
 // 32-bit numbers of a section.

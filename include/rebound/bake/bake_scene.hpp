@@ -22,6 +22,8 @@ struct BakeSettings {
     uint32_t surfels = 32768; // about so many, 1 to 2^20; sides that light can reach
     uint32_t caches = 10000;  // at most so many, 8 to 2^24: the grid's spacing follows from it
     float spacing = 0.0f;     // of the grid [m]; 0: as fine as `caches` allows
+    uint32_t lightMap =
+        0; // caches on surfaces beside those of the grid, about so many, 0 to 2^20; 0: no light map
     uint32_t links = 128;     // of each cache, 1 to 4096
     uint32_t bands = 3;       // of spherical harmonics, 2 to 4
     uint32_t raysPerLink = 8; // that tell how much of its sender a cache sees, 1 to 1024   [PIC, N']

@@ -10,6 +10,7 @@ namespace detail {
 
 inline constexpr uint32_t maximumBakeSurfels = 1u << 20, maximumBakeCaches = 1u << 24,
                           maximumBakeLinks = 4096;
+inline constexpr uint32_t maximumMapSide = 2046;   // of fronts; coordinates are kept in 16 bits
 inline constexpr uint32_t maximumBakeBricks = 256; // along an axis: 10 bits number the cells
 
 inline Error wrongBake(const std::string& what, const std::string& value, const std::string& expected) {
@@ -68,6 +69,25 @@ inline Result<> validateStages(const BakeLayout& l) {
     return {};
 }
 
+inline Result<> validateMap(const BakeLayout& l) {
+    const bool isThere = l.surfaceCaches > 0;
+    const uint32_t sides = l.mapBackRow > 0 ? 2 : 1;
+    for (const BakeRange& r :
+         {BakeRange{"number of surface caches", l.surfaceCaches, 0, std::min(l.caches, 0xffffffu) - 1},
+          {"light map's width", l.mapSize.x, isThere, isThere * maximumMapSide},
+          {"light map's height", l.mapSize.y, isThere * sides, isThere * sides * maximumMapSide},
+          {"light map's row of back sides", l.mapBackRow, 0, l.mapSize.y / 2},
+          {"number of mapped triangles", l.mapTriangles, isThere, isThere * uint64_t(0xffffffffu / 3)}})
+        if (const std::string expected = outsideRange(r.value, r.first, r.last); !expected.empty())
+            return wrongBake(r.name, std::to_string(r.value), expected);
+    if (isThere && l.caches > 0xffffffu)
+        return wrongBake("number of caches beside a light map", std::to_string(l.caches), "at most 16777215");
+    if (!std::isfinite(l.mapTexel) || (l.mapTexel > 0.0f) != isThere)
+        return wrongBake("light map's texel", std::to_string(l.mapTexel),
+                         "a positive number, or 0 without a map,");
+    return {};
+}
+
 inline Result<> validatePlace(const BakeLayout& l) {
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(l.origin[axis])) return wrongBake("origin", "not finite", "a finite position");
@@ -79,9 +99,9 @@ inline Result<> validatePlace(const BakeLayout& l) {
 } // namespace detail
 
 inline const char* name(BakeSection section) {
-    constexpr const char* names[bakeSectionCount] = {"surfels",    "terms",    "linkNodes", "linkFactors",
-                                                     "linkShapes", "places",   "bricks",    "brickCells",
-                                                     "cells",      "receivers"};
+    constexpr const char* names[bakeSectionCount] = {"surfels",    "terms",     "linkNodes", "linkFactors",
+                                                     "linkShapes", "places",    "bricks",    "brickCells",
+                                                     "cells",      "receivers", "mapTexels", "mapCorners"};
     return names[size_t(section)];
 }
 
@@ -111,6 +131,10 @@ inline size_t sizeOf(const BakeLayout& l, BakeSection section) {
         return 12 * size_t(l.cells);
     case BakeSection::receivers:
         return 4 * size_t(l.receivers);
+    case BakeSection::mapTexels:
+        return size_t(l.mapSize.x) * l.mapSize.y;
+    case BakeSection::mapCorners:
+        return 3 * size_t(l.mapTriangles);
     }
     return 0;
 }
@@ -118,6 +142,7 @@ inline size_t sizeOf(const BakeLayout& l, BakeSection section) {
 inline Result<> validate(const BakeLayout& layout) {
     if (auto counts = detail::validateCounts(layout); !counts) return counts;
     if (auto stages = detail::validateStages(layout); !stages) return stages;
+    if (auto map = detail::validateMap(layout); !map) return map;
     return detail::validatePlace(layout);
 }
 

@@ -25,11 +25,15 @@ inline Result<> validate(const IlluminanceCompositionSettings& s) {
         return Error{layout.error().code, "settings.bake: " + layout.error().message};
     for (int i = 0; i < bakeSectionCount; ++i) {
         const BakeSection section{i};
+        if (!isRead(s, section)) continue;
         if (const size_t bytes = 4 * sizeOf(s.bake, section); bytes > maximumBufferSize)
             return invalidArgument(std::string("settings.bake has ") + std::to_string(bytes) + " bytes of " +
                                    name(section) + "; at most " + std::to_string(maximumBufferSize) +
                                    " were expected");
     }
+    if (s.lightMap && s.bake.surfaceCaches == 0)
+        return invalidArgument(
+            "settings.lightMap is true, but settings.bake has no light map; one that has was expected");
     if (!s.writeIndirect && !s.compose)
         return invalidArgument(
             "settings.writeIndirect and settings.compose are both false; one output was expected");
@@ -57,7 +61,7 @@ private:
     const BakeLayout& bake;
     Plan plan;
     std::array<ResourceIndex, bakeSectionCount> sections{};
-    ResourceIndex surfelLight = -1, nodes = -1, caches = -1, grid = -1;
+    ResourceIndex surfelLight = -1, nodes = -1, caches = -1, grid = -1, gridAndMap = -1;
 
     ResourceIndex section(BakeSection s) const { return sections[size_t(s)]; }
     int bandsFeature() const { return int(bake.bands) - 2; }
@@ -76,6 +80,7 @@ private:
     void addBuffers() {
         for (int i = 0; i < bakeSectionCount; ++i) {
             const BakeSection s{i};
+            if (!isRead(settings, s)) continue;
             const bool isFloats = s == BakeSection::linkFactors || s == BakeSection::places;
             const size_t numbers = sizeOf(bake, s);
             // A kernel's slot takes no empty buffer: nobody reads the number that stands there instead.
@@ -88,21 +93,30 @@ private:
         nodes = addBuffer("nodes", ResourceKind::transientBuffer, Format::r32f, 4 * (size_t(bake.nodes) + 1));
         caches = addBuffer("caches",
                            settings.bounces ? ResourceKind::persistentBuffer : ResourceKind::transientBuffer,
-                           Format::r32f, size_t(bake.caches) * size_t(floatsOfCache(bandsFeature())));
-        const glm::ivec3 bricks(bake.bricks);
-        grid = addConstants(
-            "grid", CacheGridConstants{glm::vec4(bake.origin, 1.0f / bake.spacing), glm::ivec4(bricks, 0)});
+                           Format::r32f, size_t(litCaches()) * size_t(floatsOfCache(bandsFeature())));
+        const CacheGridConstants place{glm::vec4(bake.origin, 1.0f / bake.spacing),
+                                       glm::ivec4(glm::ivec3(bake.bricks), 0)};
+        const Extent2D e = settings.resolution;
+        const glm::ivec2 map(bake.mapSize);
+        if (settings.bounces || !settings.lightMap) grid = addConstants("grid", place);
+        if (settings.lightMap)
+            gridAndMap = addConstants(
+                "grid and light map",
+                CacheMapConstants{place.origin, place.bricks, {e.width, e.height, map.x, map.y}});
     }
 
+    // Those of the map come last.
+    uint32_t litCaches() const { return settings.lightMap ? bake.caches : bake.gridCaches(); }
+
     // What irradianceOfGrid() reads.
-    void bindGrid(Pass& pass) const {
+    void bindGrid(Pass& pass, ResourceIndex constants) const {
         pass.bindings.insert(pass.bindings.end(), {{4, caches},
                                                    {5, section(BakeSection::places)},
                                                    {6, section(BakeSection::bricks)},
                                                    {7, section(BakeSection::brickCells)},
                                                    {8, section(BakeSection::cells)},
                                                    {9, section(BakeSection::receivers)},
-                                                   {10, grid}});
+                                                   {10, constants}});
     }
 
     void addLightSurfels() {
@@ -120,7 +134,7 @@ private:
         if (settings.bounces) {
             pass.kernel = "illuminance_composition/light_surfels_again";
             pass.features.push_back(bandsFeature());
-            bindGrid(pass);
+            bindGrid(pass, grid);
         }
         plan.passes.push_back(pass);
     }
@@ -143,7 +157,7 @@ private:
     }
 
     void addLightCaches() {
-        const LightCachesConstants k{{int(bake.caches), int(bake.links), 0, 0}};
+        const LightCachesConstants k{{int(litCaches()), int(bake.links), 0, 0}};
         plan.passes.push_back(
             {"light caches",
              "illuminance_composition/light_caches",
@@ -155,7 +169,7 @@ private:
               {4, caches, Access::write},
               {5, addConstants("light caches", k)}},
              {},
-             int(bake.caches)});
+             int(litCaches())});
     }
 
     void addShade() {
@@ -170,18 +184,27 @@ private:
             return plan.add({name, ResourceKind::frameConstants, {}, 1, {}, {}, size});
         };
         pass.bindings = {{0, addImage("depth", ResourceKind::input, Format::r32f, 1)},
-                         {1, addImage("normal", ResourceKind::input, Format::rgba16f, 3)},
-                         {2, constants("camera", sizeof(CameraConstants))},
-                         {3, constants("view to world", sizeof(ViewToWorldConstants))},
-                         {11, addConstants("shade", ShadeConstants{{e.width, e.height, 0, 0}})}};
-        bindGrid(pass);
+                         {1, addImage("normal", ResourceKind::input, Format::rgba16f, 3)}};
+        if (settings.lightMap) {
+            pass.kernel += "_map";
+            pass.bindings.insert(pass.bindings.end(),
+                                 {{2, constants("view", sizeof(ShadeViewConstants))},
+                                  {3, section(BakeSection::mapTexels)},
+                                  {11, addImage("map place", ResourceKind::input, Format::rgba32f, 2)}});
+            bindGrid(pass, gridAndMap);
+        } else {
+            pass.bindings.insert(pass.bindings.end(),
+                                 {{2, constants("camera", sizeof(CameraConstants))},
+                                  {3, constants("view to world", sizeof(ViewToWorldConstants))},
+                                  {11, addConstants("shade", ShadeConstants{{e.width, e.height, 0, 0}})}});
+            bindGrid(pass, grid);
+        }
         if (settings.writeIndirect)
             pass.bindings.push_back(
                 {12, addImage("indirect", ResourceKind::output, Format::rgba16f, 3), Access::write});
         if (settings.compose) {
             pass.label = "shade and compose";
-            pass.kernel = settings.writeIndirect ? "illuminance_composition/shade_both"
-                                                 : "illuminance_composition/shade_compose";
+            pass.kernel += settings.writeIndirect ? "_both" : "_compose";
             pass.bindings.insert(
                 pass.bindings.end(),
                 {{13, addImage("albedo", ResourceKind::input, Format::rgba16f, 3)},

@@ -23,6 +23,9 @@ struct IlluminanceCompositionSettings {
         true; // surfels also receive what caches received in the frame before: a bounce more each frame
     bool emission =
         true; // surfels send the emission that the bake holds; off where it is in their light already
+    // Static pixels read the bake's light map, finer than its grid, which then lights the others alone. For bakes that have
+    // one.
+    bool lightMap = false;
     bool writeIndirect = true; // hand out irradiance over pi
     bool compose = true;       // hand out lit + albedo * indirect
 };
@@ -31,10 +34,12 @@ struct IlluminanceCompositionSettings {
 //
 // Inputs  depth     1 channel, as the conventions say
 //         normal    3 channels, as the conventions say
+//         map place 2 channels: where a pixel lies in the light map [texels]; outside of it, such as negative, or no number:
+//                   it is lit by the grid (lightMap only)
 //         albedo    diffuse reflectance, 0 to 1 (compose only)
 //         lit       the picture that indirect light is added to (compose only)
 // Buffers by name(BakeSection), the sections of a valid bake with that layout, as they are; those that are empty are left
-//         out
+//         out, as are mapTexels without lightMap, and mapCorners
 //         surfel light   irradiance over pi that each surfel receives of all lights, three colours one behind the other,
 //                        each of BakeLayout::stride(surfels) floats [W m^-2 sr^-1, or any unit: the output is in the
 //                        same]. Up to 65504; more counts as that, less than nothing as nothing, and a surfel whose light
@@ -52,7 +57,7 @@ Result<Plan> planIlluminanceComposition(const IlluminanceCompositionSettings&);
 template <class Image>
 struct IlluminanceCompositionFrame {
     Camera camera;
-    Image depth{}, normal{}, albedo{}, lit{};
+    Image depth{}, normal{}, mapPlace{}, albedo{}, lit{};
     Image indirect{}, composed{};
     std::array<BufferOf<Image>, bakeSectionCount> sections{}; // by BakeSection; the same every frame
     BufferOf<Image> surfelLight{};
@@ -61,7 +66,12 @@ struct IlluminanceCompositionFrame {
 namespace detail {
 #include "rebound/math/uniform_types.h"
 
-#include "rebound/techniques/illuminance_composition_constants.h"
+#include "rebound/techniques/shade_view_constants.h"
+
+// Whether a kernel reads a section of the bake.
+inline bool isRead(const IlluminanceCompositionSettings& settings, BakeSection section) {
+    return section != BakeSection::mapCorners && (section != BakeSection::mapTexels || settings.lightMap);
+}
 
 // Of the view space of CameraConstants, whose z is a distance.
 ViewToWorldConstants viewToWorld(const Camera&, const GBufferConventions&);
@@ -75,6 +85,7 @@ Result<FrameInputs<Image>> illuminanceCompositionInputs(const IlluminanceComposi
     if (!camera) return camera.error();
     FrameInputs<Image> inputs;
     inputs.images = {{"depth", frame.depth}, {"normal", frame.normal}};
+    if (settings.lightMap) inputs.images.push_back({"map place", frame.mapPlace});
     if (settings.writeIndirect) inputs.images.push_back({"indirect", frame.indirect});
     if (settings.compose) {
         inputs.images.push_back({"albedo", frame.albedo});
@@ -82,7 +93,8 @@ Result<FrameInputs<Image>> illuminanceCompositionInputs(const IlluminanceComposi
         inputs.images.push_back({"composed", frame.composed});
     }
     for (int i = 0; i < bakeSectionCount; ++i)
-        if (const BakeSection section{i}; sizeOf(settings.bake, section) > 0)
+        if (const BakeSection section{i};
+            detail::isRead(settings, section) && sizeOf(settings.bake, section) > 0)
             inputs.buffers.push_back({name(section), frame.sections[size_t(i)]});
     inputs.buffers.push_back({"surfel light", frame.surfelLight});
     const detail::ViewToWorldConstants world = detail::viewToWorld(frame.camera, settings.conventions);
@@ -90,8 +102,12 @@ Result<FrameInputs<Image>> illuminanceCompositionInputs(const IlluminanceComposi
         const std::byte* bytes = reinterpret_cast<const std::byte*>(&constants);
         inputs.constants.push_back({called, {bytes, bytes + sizeof constants}});
     };
-    addConstants("camera", *camera);
-    addConstants("view to world", world);
+    if (settings.lightMap) {
+        addConstants("view", detail::ShadeViewConstants{*camera, world});
+    } else {
+        addConstants("camera", *camera);
+        addConstants("view to world", world);
+    }
     return inputs;
 }
 

@@ -12,6 +12,9 @@ const int directionLinks = 1;
 const int withoutEmission = 0;
 const int withEmission = 1;
 
+// Of a light map's texel, in its lower 24 bits: nothing arrives there.
+const int noMapCache = 0xffffff;
+
 struct LightSurfelsConstants {
     ivec4 counts; // .x surfels, .y from one kind of their numbers to the next, .z the empty node
 };
@@ -29,6 +32,13 @@ struct LightCachesConstants {
 struct CacheGridConstants {
     vec4 origin;  // .xyz [m], .w cells a metre
     ivec4 bricks; // .xyz of 4 x 4 x 4 cells, along each axis
+};
+
+// CacheGridConstants, and what a light map's kernels need beside.
+struct CacheMapConstants {
+    vec4 origin;
+    ivec4 bricks;
+    ivec4 extent; // .xy of the picture [pixels], .zw of the light map [texels]
 };
 
 struct ShadeConstants {

@@ -6,6 +6,7 @@
 #include "lab/rays/camera_rays.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -93,6 +94,24 @@ public:
         return displayed(image);
     }
 
+    // Every other texel a little darker.
+    Picture mapTexels(const Image& places) const {
+        constexpr std::array<glm::vec3, 5> colors{{{0.2f, 0.8f, 0.3f},
+                                                   {1.0f, 0.6f, 0.0f},
+                                                   {0.2f, 0.5f, 1.0f},
+                                                   {0.5f, 0.5f, 0.5f},
+                                                   {0.0f, 0.0f, 0.0f}}};
+        return drawn([&](int x, int y, uint32_t) {
+            const float* place = places.at(x, y);
+            if (!(place[0] >= 0.0f)) return glm::vec3(1.0f);
+            const glm::uvec2 texel{uint32_t(place[0]), uint32_t(place[1])};
+            const uint32_t number =
+                bake.section(BakeSection::mapTexels)[size_t(texel.y) * bake.layout.mapSize.x + texel.x];
+            const glm::vec3 color = colors[std::min<size_t>(number >> 24, colors.size() - 1)];
+            return (texel.x + texel.y) % 2 == 0 ? color : 0.75f * color;
+        });
+    }
+
 private:
     size_t index(int x, int y) const { return size_t(y) * size_t(frame.depth.width) + size_t(x); }
 
@@ -115,7 +134,7 @@ private:
     uint32_t middleCache() const {
         const glm::vec3 middle = pointAt(frame.depth.width / 2, frame.depth.height / 2);
         uint32_t nearest = 0;
-        for (uint32_t i = 1; i < bake.layout.caches; ++i)
+        for (uint32_t i = 1; i < bake.layout.gridCaches(); ++i)
             if (glm::length(placeOf(i) - middle) < glm::length(placeOf(nearest) - middle)) nearest = i;
         return nearest;
     }
@@ -188,7 +207,7 @@ private:
 
 } // namespace
 
-std::vector<NamedPicture> picturesOf(const Bake& bake, const Frame& frame) {
+std::vector<NamedPicture> picturesOf(const Bake& bake, const Frame& frame, const Image& mapPlaces) {
     const BakeDrawing drawing(bake, frame);
     std::vector<NamedPicture> pictures;
     pictures.push_back({"surfels", "surfels, by number and albedo", drawing.surfels()});
@@ -197,6 +216,12 @@ std::vector<NamedPicture> picturesOf(const Bake& bake, const Frame& frame) {
                             std::to_string(count) + " patches of the tree", drawing.patches(count)});
     pictures.push_back({"caches", "caches: green, moved orange, none red", drawing.caches()});
     pictures.push_back({"links", "links of the blue cache, by factor", drawing.links()});
+    if (!mapPlaces.empty())
+        pictures.push_back(
+            {"light_map",
+             "texels: in their middle green, moved orange, of a seam blue, borrowed grey, dark "
+             "black; grid's white",
+             drawing.mapTexels(mapPlaces)});
     return pictures;
 }
 

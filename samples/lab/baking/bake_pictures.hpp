@@ -17,7 +17,8 @@ struct NamedPicture {
     Picture picture;
 };
 
-// surfels, patches of three levels of the tree, caches, and the links of the cache nearest to the picture's middle.
-std::vector<NamedPicture> picturesOf(const Bake&, const Frame&);
+// surfels, patches of three levels of the tree, caches of the grid, the links of the cache nearest to the picture's middle,
+// and the light map's texels. mapPlaces: as mapPlacesOf() gives them; empty: there is no map.
+std::vector<NamedPicture> picturesOf(const Bake&, const Frame&, const Image& mapPlaces);
 
 } // namespace rebound::lab

@@ -25,6 +25,7 @@ std::string bakeKey(const Scene& scene, const BakeSettings& settings) {
     hash.add(settings.surfels);
     hash.add(settings.caches);
     hash.add(settings.spacing);
+    hash.add(settings.lightMap);
     hash.add(settings.links);
     hash.add(settings.bands);
     hash.add(settings.raysPerLink);

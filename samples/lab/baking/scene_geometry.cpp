@@ -28,11 +28,20 @@ BakeSurface surfaceAt(const EmbreeScene& scene, const SurfaceLocation& location)
 
 } // namespace
 
+std::vector<uint32_t> firstTrianglesOf(const Scene& scene) {
+    std::vector<uint32_t> first;
+    uint32_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        first.push_back(triangles);
+        triangles += uint32_t(mesh.indices.size() / 3);
+    }
+    return first;
+}
+
 BakeGeometry geometryOf(std::shared_ptr<const EmbreeScene> scene) {
     BakeGeometry geometry;
-    TriangleOrigins origins;
+    const TriangleOrigins origins{firstTrianglesOf(scene->scene())};
     for (const Mesh& mesh : scene->scene().meshes) {
-        origins.firstTriangles.push_back(geometry.triangles());
         const uint32_t firstVertex = uint32_t(geometry.positions.size());
         geometry.positions.insert(geometry.positions.end(), mesh.positions.begin(), mesh.positions.end());
         for (const uint32_t index : mesh.indices) geometry.indices.push_back(firstVertex + index);
@@ -40,8 +49,7 @@ BakeGeometry geometryOf(std::shared_ptr<const EmbreeScene> scene) {
     geometry.mayHaveHoles = [scene, origins](uint32_t triangle) {
         return scene->materialAt(origins.locate(triangle, {})).alphaMasked;
     };
-    geometry.surface = [scene = std::move(scene), origins = std::move(origins)](uint32_t triangle,
-                                                                                glm::vec2 barycentrics) {
+    geometry.surface = [scene = std::move(scene), origins](uint32_t triangle, glm::vec2 barycentrics) {
         return surfaceAt(*scene, origins.locate(triangle, barycentrics));
     };
     return geometry;

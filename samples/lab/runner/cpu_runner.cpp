@@ -86,7 +86,9 @@ private:
 
     cpu::Scalar scalarOf(const Resource& r) const {
         if (isInteger(r.format)) return cpu::Scalar::uint32;
-        return r.kind == ResourceKind::input && r.format == Format::r32f ? cpu::Scalar::float32 : scalar;
+        return r.kind == ResourceKind::input && inputFormat(r, Precision::half) != Format::rgba16f
+                   ? cpu::Scalar::float32
+                   : scalar;
     }
 
     Result<lab::Image> contents(ResourceIndex index) const {

@@ -94,7 +94,7 @@ Result<double> PreparedPlan::runFrame(const PlanInputs& inputs) {
 }
 
 Format inputFormat(const Resource& r, Precision precision) {
-    if (r.format == Format::r32f || isInteger(r.format)) return r.format;
+    if (r.format == Format::r32f || r.format == Format::rgba32f || isInteger(r.format)) return r.format;
     return precision == Precision::half ? Format::rgba16f : Format::rgba32f;
 }
 

@@ -15,7 +15,8 @@
 
 namespace rebound::runner {
 
-// How a host keeps normals, colours and radiance; depth is always in single precision.
+// How a host keeps normals, colours and radiance; depth, and whatever else a plan advises so, is always in single
+// precision.
 enum class Precision { half, single };
 
 // A frame as techniques fill it, such as screenIndirectInputs(). A backend makes the outputs' images and output buffers

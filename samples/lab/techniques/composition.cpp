@@ -2,6 +2,7 @@
 #include "rebound/techniques/illuminance_composition.hpp"
 
 #include "lab/baking/kept_bake.hpp"
+#include "lab/baking/map_places.hpp"
 #include "lab/baking/scene_geometry.hpp"
 #include "lab/baking/surfel_light.hpp"
 #include "lab/scenes/camera_matrices.hpp"
@@ -20,6 +21,7 @@ namespace rebound::techniques {
 namespace {
 
 constexpr std::pair<const char*, bool> switchNames[] = {{"on", true}, {"off", false}};
+constexpr std::pair<const char*, bool> carrierNames[] = {{"lightmap", true}, {"grid", false}};
 
 // Light of 8 bounces is settled after as many frames; what comes then is less than the eye sees.
 constexpr int settledBounces = 12;
@@ -29,15 +31,17 @@ struct Choice {
     std::string file;         // empty: baked
     std::optional<Bake> read; // from that file
     bool bounces = true;
+    bool lightMap = true; // where the bake has one
     View view;
 };
 
 Result<Choice> choiceOf(const Draft& draft, const View& view, Spelling spelling) {
     auto settings = bakeSettingsOf(draft, spelling);
     if (!settings) return settings.error();
-    Choice choice{*settings, {}, {}, true, view};
+    Choice choice{*settings, {}, {}, true, true, view};
     DraftValues values(draft, spelling);
     values.replaceByName<bool>(choice.bounces, "feedback", switchNames);
+    values.replaceByName<bool>(choice.lightMap, "static-light", carrierNames);
     if (!values.error()) return values.error().error();
     const std::string* file = values.find("bake");
     if (!file) return choice;
@@ -53,12 +57,22 @@ Result<Choice> choiceOf(const Draft& draft, const View& view, Spelling spelling)
     return choice;
 }
 
+void setLikelyMap(BakeLayout& layout, uint32_t caches) {
+    if (caches == 0) return;
+    layout.surfaceCaches = caches;
+    // Charts have a texel around, and lie next to each other with gaps.
+    layout.mapSize = glm::uvec2(std::min(2046u, 3u + uint32_t(std::sqrt(2.0 * double(caches)))));
+    layout.mapTriangles = 1;
+    layout.mapTexel = 1.0f;
+}
+
 // As large as a bake with these settings becomes at most, or nearly so.
 BakeLayout likelyLayout(const BakeSettings& s) {
     BakeLayout layout;
     layout.surfels = s.surfels;
     layout.nodes = 2 * s.surfels - 1;
-    layout.caches = s.caches;
+    layout.caches = s.caches + s.lightMap;
+    setLikelyMap(layout, s.lightMap);
     layout.links = s.links;
     layout.bands = s.bands;
     layout.linkForm = s.linkForm;
@@ -82,18 +96,20 @@ IlluminanceCompositionSettings settingsOf(const Choice& choice, const BakeLayout
     settings.bake = layout;
     settings.bounces = choice.bounces;
     settings.emission = emission;
+    settings.lightMap = choice.lightMap && layout.surfaceCaches > 0;
     return settings;
 }
 
 Json settingsJson(const Choice& choice) {
     Json json = choice.file.empty() ? toJson(choice.bake) : Json{{"bake", choice.file}};
     json["feedback"] = choice.bounces;
+    json["static_light"] = choice.lightMap ? "lightmap" : "grid";
     return json;
 }
 
 std::string nameOf(const Choice& choice) {
     return "composition, " + (choice.file.empty() ? techniques::nameOf(choice.bake) : choice.file) +
-           (choice.bounces ? "" : ", one bounce");
+           (choice.bounces ? "" : ", one bounce") + (choice.lightMap ? "" : ", grid alone");
 }
 
 Result<Configured> withoutInputs(const Choice& choice, const BakeLayout& layout, bool emission) {
@@ -128,7 +144,7 @@ SharedBytes sharedBytes(std::span<const std::byte> bytes) {
 
 // What stays the same from frame to frame.
 struct BakedScene {
-    BakeLayout layout;
+    Bake bake;
     std::array<SharedBytes, bakeSectionCount> sections;
     SharedBytes surfelLight;
 };
@@ -165,7 +181,7 @@ Result<Configured> bakedIn(const Choice& choice, const Surroundings& surrounding
     configured->notes.push_back(noteOn(*obtained));
 
     const auto baked = std::make_shared<BakedScene>();
-    baked->layout = obtained->bake.layout;
+    baked->bake = obtained->bake;
     for (size_t i = 0; i < baked->sections.size(); ++i)
         baked->sections[i] = sharedBytes(std::as_bytes(obtained->bake.sections[i]));
     lab::SurfelLightOptions light;
@@ -175,13 +191,14 @@ Result<Configured> bakedIn(const Choice& choice, const Surroundings& surrounding
     configured->bake =
         std::make_shared<const lab::LitBake>(lab::LitBake{obtained->bake, std::move(planes), emission});
 
-    const IlluminanceCompositionSettings settings = settingsOf(choice, baked->layout, emission);
-    configured->inputs = [settings, baked](const lab::Frame& frame, const lab::Image&,
-                                           const lab::Image& lit) {
+    const IlluminanceCompositionSettings settings = settingsOf(choice, baked->bake.layout, emission);
+    configured->inputs = [settings, baked, rays = *rays, threads = surroundings.threads](
+                             const lab::Frame& frame, const lab::Image&, const lab::Image& lit) {
         IlluminanceCompositionFrame<lab::Image> inputs;
         inputs.camera = lab::cameraMatrices(frame.camera, settings.resolution);
         inputs.depth = frame.depth;
         inputs.normal = frame.normal;
+        if (settings.lightMap) inputs.mapPlace = lab::mapPlacesOf(baked->bake, *rays, frame, threads);
         inputs.albedo = frame.albedo;
         inputs.lit = lit;
         inputs.sections = baked->sections;
@@ -227,6 +244,7 @@ Result<std::vector<Ablation>> ablations(const Draft& draft, const View& view) {
     if (auto added = add("links", "links -> twice as many, each with twice the rays"); !added)
         return added.error();
     choice.bake.caches = std::min(4 * choice.bake.caches, 1u << 24);
+    choice.bake.lightMap = std::min(4 * choice.bake.lightMap, 1u << 20);
     choice.bake.spacing *= 0.63f; // a quarter of the cells' volume
     if (auto added = add("interpolation", "caches -> 4 times as many"); !added) return added.error();
     return steps;
@@ -239,6 +257,9 @@ std::vector<Option> options() {
          "surfels receive light of the caches of the frame before, a bounce a frame:\non or off (default: "
          "on)"},
     };
+    all.push_back({"static-light", "WHICH",
+                   "what lights what stands where it was baked, of bakes that have both: lightmap or grid\n"
+                   "(default: lightmap)"});
     for (Option& option : bakeOptions()) all.push_back(std::move(option));
     return all;
 }
@@ -254,7 +275,8 @@ Technique composition() {
     technique.ablations = ablations;
     technique.lastApproximation = {"caches and patches",
                                    "caches lit through patches -> rays from every pixel to surfels"};
-    technique.examples = {{{"surfels", "2000"}, {"caches", "800"}, {"links", "32"}}};
+    technique.examples = {{{"surfels", "2000"}, {"caches", "800"}, {"links", "32"}},
+                          {{"surfels", "2000"}, {"caches", "300"}, {"links", "32"}, {"lightmap", "1500"}}};
     return technique;
 }
 
