@@ -31,6 +31,7 @@ constexpr uint32_t raysOfPlace = 16;
 // A roof's tiles receive next to nothing of each other, but are half of a house's texels: as many caches for their area as the
 // square of what they see of surfaces, but no fewer than this.
 constexpr double leastDensity = 1.0 / 64.0;
+constexpr double mostWidening = 2.0; // of texels, by which more charts are left to the grid
 
 struct MappedChart {
     Chart chart;
@@ -92,7 +93,7 @@ std::optional<std::vector<MappedChart>> chartsOf(const Surroundings& around, dou
         },
         64);
     for (Chart& chart : charts)
-        if (chart.area >= leastArea * chart.frame.texel * chart.frame.texel)
+        if (chart.area >= leastArea * std::pow(std::min(chart.frame.texel, mostWidening * texel), 2.0))
             mapped.push_back({std::move(chart), {}, {}});
     parallelFor(
         mapped.size(), settings.threads,

@@ -17,6 +17,10 @@ namespace {
 constexpr double leastCosine = 0.8;
 // Slopes up to that cosine rise by 0.75 from texel to texel; what lies further apart is another layer. [texels]
 constexpr double layerDistance = 2.0;
+// Charts of less than that many texels are joined to one beside that is turned by less than 70 degrees.
+constexpr double smallArea = 1.0;
+constexpr double leastJoinedCosine = 0.35;
+constexpr uint32_t noChart = 0xffffffffu;
 // Edges that more triangles share are no surface whose sides go on from each other.
 constexpr size_t mostAtEdge = 8;
 
@@ -125,10 +129,59 @@ public:
         std::vector<Chart> charts;
         for (const uint32_t seed : seeds)
             if (!taken[seed] && areas[seed] > 0.0) charts.push_back(growFrom(seed));
-        return charts;
+        return joined(std::move(charts));
     }
 
 private:
+    // Small charts, smallest first, go to the chart beside that faces most alike: a fold of a curtain, a strip of a moulding.
+    // What is turned by less than a right angle lies beyond the edge that both share, and is less than a texel.
+    std::vector<Chart> joined(std::vector<Chart> charts) const {
+        std::vector<uint32_t> chartOf(areas.size(), noChart);
+        for (uint32_t c = 0; c < charts.size(); ++c)
+            for (const uint32_t triangle : charts[c].triangles) chartOf[triangle] = c;
+        std::vector<uint32_t> order(charts.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](uint32_t a, uint32_t b) { return charts[a].area < charts[b].area; });
+        for (const uint32_t c : order) {
+            if (charts[c].area >= smallArea * texel * texel) break;
+            const uint32_t other = bestBeside(charts, chartOf, c);
+            if (other == noChart) continue;
+            for (const uint32_t triangle : charts[c].triangles) chartOf[triangle] = other;
+            Chart& to = charts[other];
+            to.triangles.insert(to.triangles.end(), charts[c].triangles.begin(), charts[c].triangles.end());
+            to.area += charts[c].area;
+            charts[c].triangles.clear();
+        }
+        std::erase_if(charts, [](const Chart& chart) { return chart.triangles.empty(); });
+        return charts;
+    }
+
+    uint32_t bestBeside(const std::vector<Chart>& charts, const std::vector<uint32_t>& chartOf,
+                        uint32_t c) const {
+        std::vector<uint32_t> beside;
+        for (const uint32_t triangle : charts[c].triangles)
+            for (uint32_t i = adjacency.first[triangle]; i < adjacency.first[triangle + 1]; ++i)
+                if (const uint32_t other = chartOf[adjacency.neighbours[i]]; other != noChart && other != c)
+                    beside.push_back(other);
+        std::sort(beside.begin(), beside.end());
+        beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+        uint32_t best = noChart;
+        double bestCosine = leastJoinedCosine;
+        for (const uint32_t other : beside) {
+            // Of all its triangles, not of the one at the edge alone.
+            double cosine = 1.0;
+            for (const uint32_t triangle : charts[c].triangles)
+                cosine = std::min(
+                    cosine, glm::dot(charts[other].frame.normal, Triangle(geometry, triangle).normal()));
+            if (cosine > bestCosine) {
+                best = other;
+                bestCosine = cosine;
+            }
+        }
+        return best;
+    }
+
     Chart growFrom(uint32_t seed) {
         Chart chart;
         chart.frame = frameOf(Triangle(geometry, seed), texel);

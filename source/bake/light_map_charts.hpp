@@ -32,7 +32,7 @@ struct Chart {
 };
 
 // Every triangle of an area is in one chart. Where two parts of a chart would lie above each other further apart than
-// texels are wide, they are in two. Largest triangles first: theirs are the frames, so that walls lie straight.
+// texels are wide, they are in two. Small charts are joined to those beside. Largest triangles first: theirs are the frames, so that walls lie straight.
 std::vector<Chart> growCharts(const BakeGeometry&, double texel);
 
 // Corners as they lie in a chart [texels].

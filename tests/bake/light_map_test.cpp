@@ -113,13 +113,16 @@ TEST_CASE("every triangle is in one chart, with those that go on from it and fac
         flat += chart.triangles.size() == 2 && chart.area > 10.0;
         for (const uint32_t t : chart.triangles) {
             ++times[t];
-            CHECK(glm::dot(Triangle(geometry, t).normal(), chart.frame.normal) >= 0.8);
+            // 37 degrees, or 70 of small charts that were joined.
+            const double least = chart.area > 0.05 ? 0.35 : 0.8;
+            CHECK(glm::dot(Triangle(geometry, t).normal(), chart.frame.normal) >= least);
         }
     }
     for (uint32_t t = 0; t < geometry.triangles(); ++t)
         CHECK(times[t] == (Triangle(geometry, t).area() > 0.0 ? 1 : 0)); // at the poles two corners are one
     CHECK(flat == 6);                                                    // walls, whole
-    CHECK(charts.size() < 60);
+    CHECK(charts.size() < 40);
+    for (const Chart& chart : charts) CHECK(chart.area > 0.01); // a texel: smaller ones found others beside
 }
 
 TEST_CASE("a ramp that winds up over itself is several charts") {
