@@ -37,13 +37,7 @@ string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
 string(REGEX REPLACE "((0x[0-9a-f]+,){8})" "\\1\n    " words "${words}")
 # What the kernel declares is read by C++, as for a CPU: nothing of it runs.
 file(WRITE ${OUTPUT} "// Generated: ${NAME}.
-#define REBOUND_ISA declarations
-#define REBOUND_CPU_LANES
-#define REBOUND_SCALAR_LANES
-#include \"rebound/kernel/lanes_headers.h\"
-
-#include \"rebound/kernel/cpu_binding.h\"
-#include \"rebound/shaders.hpp\"
+#include \"rebound/kernel/declarations.h\"
 
 namespace rebound::cpu::declarations {
 namespace {

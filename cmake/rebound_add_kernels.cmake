@@ -85,6 +85,7 @@ function(rebound_add_cpu_kernels target table_function folder kernels)
             rebound_write_cpu_kernel(${generated} ${kernel_file} ${kernel_name} ${isa})
             set_source_files_properties(${generated} PROPERTIES
                 COMPILE_OPTIONS "${kernel_options};${isa_options_${isa}}"
+                SKIP_PRECOMPILE_HEADERS ON
                 OBJECT_DEPENDS ${kernel_file})
             target_sources(${target} PRIVATE ${generated})
             string(APPEND declarations "namespace ${isa} { extern const KernelEntry ${kernel_id}; }\n")
@@ -98,6 +99,7 @@ function(rebound_add_cpu_kernels target table_function folder kernels)
     endforeach()
     set(table ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target}_cpu_table.cpp)
     configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/cpu_kernel_table.cpp.in ${table} @ONLY)
+    set_source_files_properties(${table} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     target_sources(${target} PRIVATE ${table})
 endfunction()
 
@@ -125,5 +127,6 @@ function(rebound_add_gpu_kernels target table_function folder kernels)
     endforeach()
     set(table ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target}_gpu_table.cpp)
     configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/gpu_kernel_table.cpp.in ${table} @ONLY)
+    set_source_files_properties(${table} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     target_sources(${target} PRIVATE ${table})
 endfunction()

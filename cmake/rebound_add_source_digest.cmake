@@ -17,5 +17,6 @@ function(rebound_add_source_digest target)
             -D NAMESPACE=${arg_NAMESPACE} "-DTOOLS=${arg_TOOLS}" -D OUTPUT=${output} -P ${script}
         DEPENDS ${files} ${script}
         COMMENT "Hashing the text of ${folders}" VERBATIM)
+    set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON) # reading them takes longer
     target_sources(${target} PRIVATE ${output})
 endfunction()

@@ -2,7 +2,6 @@
 // The main function of tests that need a device, without which there is nothing to test.
 #pragma once
 
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include "rebound/result.hpp"
