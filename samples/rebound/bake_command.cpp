@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "bake_workers.hpp"
 #include "commands.hpp"
 #include "frame_source.hpp"
 #include "lab/baking/bake_of_scene.hpp"
 #include "lab/baking/bake_pictures.hpp"
+#include "lab/baking/kept_bake.hpp"
 #include "lab/baking/map_places.hpp"
 #include "lab/techniques/bake_settings.hpp"
 #include "options.hpp"
@@ -16,6 +18,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace rebound::cli {
 
@@ -47,16 +50,55 @@ std::string mapLine(const BakeLayout& layout) {
                      layout.mapSize.x, layout.mapSize.y, double(layout.mapTexel));
 }
 
-// The scene has to outlive its rays.
-Result<Bake> bakeSource(const lab::Scene& scene, BakeSettings settings) {
-    auto rays = lab::EmbreeScene::build(scene);
+// What is known before baking begins.
+struct BakeInput {
+    BakeSettings settings;
+    Extent2D extent;                         // of pictures
+    std::shared_ptr<const SourcedView> view; // which does not move: the scene refers to it
+    std::shared_ptr<const lab::EmbreeScene> scene;
+};
+
+Result<BakeInput> load(const BakeOptions& options) {
+    auto settings = techniques::bakeSettingsOf(options.draft, techniques::Spelling::options);
+    if (!settings) return settings.error();
+    settings->threads = options.threads;
+    if (options.out.empty() && options.show.empty())
+        return invalidArgument("--out is missing; a file, or --show with a folder, was expected");
+    const auto extent = parseSize(options.size);
+    if (!extent) return extent.error();
+    if (!options.show.empty())
+        if (auto writable = checkOutputFolder(options.show); !writable) return writable.error();
+    auto view = loadView(options.source);
+    if (!view) return view.error();
+    auto kept = std::make_shared<const SourcedView>(*std::move(view));
+    auto rays = lab::EmbreeScene::build(kept->scene);
     if (!rays) return rays.error();
-    ProgressLine line("baking");
+    return BakeInput{*std::move(settings), *extent, std::move(kept),
+                     std::make_shared<const lab::EmbreeScene>(*std::move(rays))};
+}
+
+// Beside the file that is to be written. None where that is a device.
+std::optional<BakePartFolder> partFolder(const BakeOptions& options, const BakeInput& input) {
+    std::error_code ignored;
+    const std::filesystem::path file(options.out);
+    const auto status = std::filesystem::status(file, ignored);
+    if (!file.has_filename() ||
+        (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))
+        return std::nullopt;
+    return BakePartFolder(options.out + ".parts", lab::bakeKey(input.view->scene, input.settings),
+                          [](const std::string& sentence) { std::cerr << "rebound: " + sentence + "\n"; });
+}
+
+Result<std::optional<Bake>> bakeTogether(const BakeInput& input, BakeCrew& crew, bool isShown) {
+    std::optional<ProgressLine> line;
+    if (isShown) line.emplace("baking");
+    BakeSettings settings = input.settings;
     settings.progress = [&line](std::string_view step, double share) {
-        line.describe("baking: " + std::string(step));
-        line.update(share);
+        if (!line) return;
+        line->begin("baking: " + std::string(step));
+        line->update(share);
     };
-    return lab::bakeOfScene(std::make_shared<const lab::EmbreeScene>(*std::move(rays)), settings);
+    return lab::bakeOfScene(input.scene, settings, crew);
 }
 
 Result<> show(const Bake& bake, const SourcedView& view, Extent2D extent, const BakeOptions& options) {
@@ -84,36 +126,48 @@ Result<> show(const Bake& bake, const SourcedView& view, Extent2D extent, const 
     return writeOutputFolder(options.show, files);
 }
 
-Result<> bake(const BakeOptions& options) {
-    auto settings = techniques::bakeSettingsOf(options.draft, techniques::Spelling::options);
-    if (!settings) return settings.error();
-    settings->threads = options.threads;
-    if (options.out.empty() && options.show.empty())
-        return invalidArgument("--out is missing; a file, or --show with a folder, was expected");
-    const auto extent = parseSize(options.size);
-    if (!extent) return extent.error();
-    if (!options.show.empty())
-        if (auto writable = checkOutputFolder(options.show); !writable) return writable;
-    const auto view = loadView(options.source);
-    if (!view) return view.error();
-    const auto began = std::chrono::steady_clock::now();
-    auto baked = bakeSource(view->scene, *settings);
-    if (!baked) return baked.error();
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-    if (!options.out.empty())
-        if (auto written = writeBake(*baked, options.out); !written) return written;
-    if (!options.show.empty())
-        if (auto shown = show(*baked, *view, *extent, options); !shown) return shown;
-    const BakeLayout& layout = baked->layout;
+void report(const Bake& bake, const BakeOptions& options, const std::string& how) {
+    const BakeLayout& layout = bake.layout;
     std::cout << options.source.scene << ": " << layout.surfels << " surfels, " << layout.gridCaches()
               << " caches in " << layout.cells << formatted(" cells of %.3g m, ", double(layout.spacing))
               << mapLine(layout) << layout.links << " links each, " << layout.bands << " bands\n"
-              << sizeTable(*baked) << formatted("baked in %.1f s", took.count());
+              << sizeTable(bake) << how;
     for (const std::string& place : {options.out, options.show})
         if (!place.empty()) std::cout << ", written to " << place;
     std::cout << '\n';
-    printNotes(view->scene.notes, std::cout);
+}
+
+Result<> bake(const BakeOptions& options, BakeWorkers& workers) {
+    auto input = load(options);
+    if (auto ready = workers.agree(input ? Result<>() : Result<>(input.error())); !ready) return ready;
+    auto kept = partFolder(options, *input);
+    const auto began = std::chrono::steady_clock::now();
+    auto baked = bakeTogether(*input, workers.crew(kept ? &*kept : nullptr), !workers.helpsOnly());
+    if (auto done = workers.agree(baked ? Result<>() : Result<>(baked.error())); !done) return done;
+    if (workers.helpsOnly()) return {};
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+    const Bake& bake = **baked;
+    if (!options.out.empty())
+        if (auto written = writeBake(bake, options.out); !written) return written;
+    if (kept) kept->remove();
+    if (!options.show.empty())
+        if (auto shown = show(bake, *input->view, input->extent, options); !shown) return shown;
+    std::string how = formatted("baked in %.1f s", took.count());
+    if (workers.processes() > 1) how += formatted(" by %d processes", workers.processes());
+    if (kept && kept->partsRead() > 0)
+        how += formatted(", with %zu parts that an earlier run had finished", kept->partsRead());
+    report(bake, options, how);
+    printNotes(input->view->scene.notes, std::cout);
     return {};
+}
+
+// Of several processes one prints what has failed.
+Result<int> bake(const BakeOptions& options) {
+    auto workers = bakeWorkers();
+    if (!workers) return workers.error();
+    const Result<> done = bake(options, **workers);
+    if (!done && (*workers)->helpsOnly()) return 2;
+    return exitCodeOf(done);
 }
 
 } // namespace
@@ -149,13 +203,16 @@ Command addBakeCommand(CLI::App& program) {
     app->footer(
         "The file holds surfels, which send light, a tree of them, caches, which receive it, and links\n"
         "between caches and the tree. It knows nothing of lights and cameras.\n"
+        "What is finished is kept in FILE.parts until FILE is written: the same command goes on with it\n"
+        "after an interruption, and so do the processes of mpirun, of which each does a share.\n"
         "\n"
         "Examples:\n"
         "  rebound bake builtin:atrium --out atrium.bake\n"
         "  rebound bake builtin:atrium --camera nave --show baked\n"
         "  rebound bake scene.gltf --quality high --out scene.bake\n"
+        "  mpirun -n 8 rebound bake scene.gltf --quality high --out scene.bake\n"
         "  rebound render builtin:atrium --technique composition --bake atrium.bake");
-    return [options] { return exitCodeOf(bake(*options)); };
+    return [options] { return bake(*options); };
 }
 
 } // namespace rebound::cli

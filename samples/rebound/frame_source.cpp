@@ -104,7 +104,7 @@ Result<techniques::Configured> configureFor(const SourcedFrame& source, const Te
     if (!configured) return configured;
     ProgressLine line("baking");
     const auto progress = [&line](std::string_view step, double share) {
-        line.describe("baking: " + std::string(step));
+        line.begin("baking: " + std::string(step));
         line.update(share);
     };
     return techniques::completed(*std::move(configured), {source.scene, threads, progress}, source.name);

@@ -18,6 +18,12 @@ public:
 
     // What the line says from now on.
     void describe(const std::string& step) { what = step; }
+    // And another step begins, of which the time left is told anew.
+    void begin(const std::string& step) {
+        if (step == what) return;
+        what = step;
+        beganAt = -1.0;
+    }
 
     // share: what is done, 0 to 1. From any thread, one call at a time.
     void update(double share);

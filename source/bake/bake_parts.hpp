@@ -13,6 +13,7 @@ struct BakeExperiments {
     MapRemedies map;
 };
 
-Result<Bake> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&, const BakeExperiments&);
+Result<std::optional<Bake>> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&,
+                                      const BakeExperiments&, BakeCrew&);
 
 } // namespace rebound::detail

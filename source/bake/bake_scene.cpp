@@ -2,9 +2,8 @@
 #include "rebound/bake/bake_scene.hpp"
 
 #include "bake_parts.hpp"
+#include "bake_tasks.hpp"
 #include "light_map.hpp"
-#include "links.hpp"
-#include "receivers.hpp"
 
 #include "rebound/bake/packing.hpp"
 #include "rebound/bake/surfels.hpp"
@@ -19,28 +18,6 @@ namespace rebound {
 namespace {
 
 using namespace detail;
-
-uint32_t packPlace(glm::vec3 position) {
-    const glm::vec3 share = glm::clamp((position + 1.0f) / 3.0f, 0.0f, 1.0f);
-    const glm::uvec3 steps(glm::round(share * 1023.0f));
-    return steps.x | steps.y << 10 | steps.z << 20;
-}
-
-std::vector<uint32_t> packReceivers(const std::vector<Receiver>& receivers) {
-    std::vector<uint32_t> words;
-    words.reserve(4 * receivers.size());
-    for (const Receiver& receiver : receivers) {
-        words.push_back(packPlace(receiver.position));
-        words.push_back(packOctahedral(receiver.normal));
-        for (size_t half = 0; half < 2; ++half) {
-            uint32_t word = 0;
-            for (size_t c = 0; c < 4; ++c)
-                word |= uint32_t(std::lround(receiver.visibility[4 * half + c] * 255.0f)) << (8 * c);
-            words.push_back(word);
-        }
-    }
-    return words;
-}
 
 std::vector<uint32_t> packCells(const std::vector<Cell>& cells, const std::vector<uint32_t>& firstReceiver) {
     std::vector<uint32_t> words;
@@ -102,8 +79,10 @@ void setMap(BakeLayout& layout, const LightMap& map) {
     layout.mapTexel = map.texel;
 }
 
-Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, const BakeSettings& settings,
-                       const BakeExperiments& experiments) {
+// Nothing in a process that only helps.
+Result<std::optional<Bake>> bakeValid(const BakeGeometry& geometry, const RayCaster& rays,
+                                      const BakeSettings& settings, const BakeExperiments& experiments,
+                                      BakeCrew& crew) {
     const auto report = [&](std::string_view what, double share) {
         if (settings.progress) settings.progress(what, share);
     };
@@ -127,9 +106,15 @@ Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, cons
         return Error{ErrorCode::invalidData,
                      "no place near the geometry's surfaces is outside of it; with a finer grid "
                      "(settings.caches, settings.spacing) there may be"};
+    BakeLayout layout;
+    layout.geometry = fingerprintOf(geometry);
+    const auto done = [&](const BakeTask& task) {
+        return crew.run(task, settings.threads, [&](double share) { report(task.name, share); });
+    };
     report("receivers", 0.0);
-    const Receivers receivers =
-        gatherReceivers(around, grid->lattice, table, receiving.sides, settings.threads);
+    const ReceiverTask receiverTask(around, grid->lattice, table, receiving.sides, layout.geometry);
+    auto receiverParts = done(receiverTask.task());
+    if (!receiverParts) return receiverParts.error();
     LightMap map;
     if (settings.lightMap > 0) {
         report("light map", 0.0);
@@ -137,10 +122,14 @@ Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, cons
     }
     std::vector<glm::vec3> caches = table.caches, normals;
     append(map, caches, normals);
-    LinkSections links = linkCaches(around, caches, normals, *tree, emittersOf(*tree, *surfels), settings,
-                                    [&](double share) { report("links", share); });
+    const LinkTask linkTask(around, caches, normals, *tree, emittersOf(*tree, *surfels), settings,
+                            layout.geometry);
+    auto linkParts = done(linkTask.task());
+    if (!linkParts) return linkParts.error();
+    if (linkParts->empty()) return std::optional<Bake>();
+    ReceiverSections receivers = receiverTask.merge(*std::move(receiverParts));
+    LinkSections links = linkTask.merge(*std::move(linkParts));
 
-    BakeLayout layout;
     setTree(layout, *tree);
     layout.caches = uint32_t(caches.size());
     layout.links = settings.links;
@@ -151,25 +140,26 @@ Result<Bake> bakeValid(const BakeGeometry& geometry, const RayCaster& rays, cons
     layout.bricks = table.bricks;
     layout.filledBricks = table.filledBricks;
     layout.cells = uint32_t(table.cells.size());
-    layout.receivers = uint32_t(receivers.receivers.size());
-    layout.geometry = fingerprintOf(geometry);
+    layout.receivers = uint32_t(receivers.words.size() / 4);
     setMap(layout, map);
     // In the order of BakeSection.
-    return assemble(
-        layout, {packSurfels(*tree, *surfels), std::move(tree->terms), std::move(links.nodes),
-                 std::move(links.factors), std::move(links.shapes), packPlaces(caches), table.brickOf,
-                 table.cellOf, packCells(table.cells, receivers.first), packReceivers(receivers.receivers),
-                 numberedFrom(uint32_t(table.caches.size()), std::move(map.texels)), std::move(map.corners)});
+    return {assemble(layout,
+                     {packSurfels(*tree, *surfels), std::move(tree->terms), std::move(links.nodes),
+                      std::move(links.factors), std::move(links.shapes), packPlaces(caches), table.brickOf,
+                      table.cellOf, packCells(table.cells, receivers.first), std::move(receivers.words),
+                      numberedFrom(uint32_t(table.caches.size()), std::move(map.texels)),
+                      std::move(map.corners)})};
 }
 
 } // namespace
 
-Result<Bake> detail::bakeScene(const BakeGeometry& geometry, const RayCaster& rays,
-                               const BakeSettings& settings, const BakeExperiments& experiments) {
+Result<std::optional<Bake>> detail::bakeScene(const BakeGeometry& geometry, const RayCaster& rays,
+                                              const BakeSettings& settings,
+                                              const BakeExperiments& experiments, BakeCrew& crew) {
     if (auto valid = validate(settings); !valid) return valid.error();
     if (auto valid = validate(geometry); !valid) return valid.error();
     try {
-        return bakeValid(geometry, rays, settings, experiments);
+        return bakeValid(geometry, rays, settings, experiments, crew);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::outOfMemory, "memory is too short for a bake of " +
                                                  std::to_string(settings.surfels) + " surfels and " +
@@ -179,7 +169,15 @@ Result<Bake> detail::bakeScene(const BakeGeometry& geometry, const RayCaster& ra
 }
 
 Result<Bake> bakeScene(const BakeGeometry& geometry, const RayCaster& rays, const BakeSettings& settings) {
-    return detail::bakeScene(geometry, rays, settings, detail::BakeExperiments{});
+    LocalBakeCrew alone;
+    auto bake = bakeScene(geometry, rays, settings, alone);
+    if (!bake) return bake.error();
+    return **std::move(bake);
+}
+
+Result<std::optional<Bake>> bakeScene(const BakeGeometry& geometry, const RayCaster& rays,
+                                      const BakeSettings& settings, BakeCrew& crew) {
+    return detail::bakeScene(geometry, rays, settings, detail::BakeExperiments{}, crew);
 }
 
 } // namespace rebound

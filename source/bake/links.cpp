@@ -2,14 +2,12 @@
 #include "links.hpp"
 
 #include "link_cut.hpp"
-#include "parallel.hpp"
 
 #include "rebound/bake/packing.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <mutex>
 
 namespace rebound::detail {
 
@@ -40,12 +38,12 @@ uint32_t shapeWord(const std::array<float, 16>& c, const BakeLayout& layout, uin
 } // namespace
 
 LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> caches,
-                        std::span<const glm::vec3> normals, const SurfelTree& tree,
-                        std::span<const uint32_t> emitters, const BakeSettings& settings,
-                        const std::function<void(double)>& progress) {
-    BakeLayout layout;
+                        std::span<const glm::vec3> normals, uint32_t first, uint32_t last,
+                        const SurfelTree& tree, const SurfelLookup& lookup,
+                        std::span<const uint32_t> emitters, const BakeSettings& settings) {
+    BakeLayout layout; // of these caches alone
     setTree(layout, tree);
-    layout.caches = uint32_t(caches.size());
+    layout.caches = last - first;
     layout.links = settings.links;
     layout.bands = settings.bands;
     layout.linkForm = settings.linkForm;
@@ -54,36 +52,25 @@ LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> c
     sections.factors.assign(sizeOf(layout, BakeSection::linkFactors), 0);
     sections.shapes.assign(sizeOf(layout, BakeSection::linkShapes), 0);
 
-    const SurfelLookup lookup(std::span(tree.nodes).first(layout.surfels));
-    std::mutex mutex;
-    size_t done = 0;
-    parallelFor(
-        caches.size(), settings.threads,
-        [&](size_t first, size_t last) {
-            LinkCutter cutter(around, tree, lookup, emitters, settings);
-            for (size_t cache = first; cache < last; ++cache) {
-                const size_t onSurfaces = caches.size() - normals.size();
-                const glm::vec3 normal = cache < onSurfaces ? glm::vec3(0.0f) : normals[cache - onSurfaces];
-                // Texels beside each other look the same ways: what they err by changes slowly, and no texel stands out.
-                const uint32_t rotation = cache < onSurfaces ? uint32_t(cache) : 0u;
-                const std::vector<SeenSender>& senders = cutter.cut(caches[cache], normal, rotation);
-                for (size_t j = 0; j < senders.size(); ++j) {
-                    const SeenSender& sender = senders[j];
-                    const size_t at = BakeLayout::ofCache(cache, j, layout.links);
-                    sections.nodes[at] = sender.node;
-                    sections.factors[at] =
-                        std::bit_cast<uint32_t>(sender.coefficients[0] / tree.nodes[sender.node].area);
-                    const size_t words = layout.shapeWords();
-                    for (uint32_t w = 0; w < words; ++w)
-                        sections.shapes[BakeLayout::ofCache(cache, j * words + w, layout.links * words)] =
-                            shapeWord(sender.coefficients, layout, w);
-                }
-            }
-            const std::lock_guard lock(mutex);
-            done += last - first;
-            if (progress) progress(double(done) / double(caches.size()));
-        },
-        32);
+    LinkCutter cutter(around, tree, lookup, emitters, settings);
+    const size_t words = layout.shapeWords();
+    for (uint32_t cache = first; cache < last; ++cache) {
+        const size_t onSurfaces = caches.size() - normals.size();
+        const glm::vec3 normal = cache < onSurfaces ? glm::vec3(0.0f) : normals[cache - onSurfaces];
+        // Texels beside each other look the same ways: what they err by changes slowly, and no texel stands out.
+        const uint32_t rotation = cache < onSurfaces ? cache : 0u;
+        const std::vector<SeenSender>& senders = cutter.cut(caches[cache], normal, rotation);
+        for (size_t j = 0; j < senders.size(); ++j) {
+            const SeenSender& sender = senders[j];
+            const size_t at = BakeLayout::ofCache(cache - first, j, layout.links);
+            sections.nodes[at] = sender.node;
+            sections.factors[at] =
+                std::bit_cast<uint32_t>(sender.coefficients[0] / tree.nodes[sender.node].area);
+            for (uint32_t w = 0; w < words; ++w)
+                sections.shapes[BakeLayout::ofCache(cache - first, j * words + w, layout.links * words)] =
+                    shapeWord(sender.coefficients, layout, w);
+        }
+    }
     return sections;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "facing.hpp"
+#include "surfel_lookup.hpp"
 
 #include "rebound/bake/bake_scene.hpp"
 #include "rebound/bake/hierarchy.hpp"
@@ -10,7 +11,6 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,11 +21,11 @@ struct LinkSections {
     std::vector<uint32_t> nodes, factors, shapes;
 };
 
-// normals: of the last caches, which lie on surfaces, as many as there are. emitters: leaves of the tree that emit,
-// ascending. progress: share of caches that have theirs.
+// Of caches first to last - 1 alone: their stretches of these sections. first: a multiple of 64; last: too, or the number
+// of caches. normals: of the last of all caches, which lie on surfaces, as many as there are. lookup: of the tree's
+// leaves. emitters: leaves of the tree that emit, ascending.
 LinkSections linkCaches(const Surroundings&, std::span<const glm::vec3> caches,
-                        std::span<const glm::vec3> normals, const SurfelTree&,
-                        std::span<const uint32_t> emitters, const BakeSettings&,
-                        const std::function<void(double)>& progress);
+                        std::span<const glm::vec3> normals, uint32_t first, uint32_t last, const SurfelTree&,
+                        const SurfelLookup&, std::span<const uint32_t> emitters, const BakeSettings&);
 
 } // namespace rebound::detail

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "receivers.hpp"
 
-#include "parallel.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -82,28 +80,6 @@ std::vector<Point> cluster(const std::vector<Point>& points) {
     return centres;
 }
 
-// Samples of each cell and its margin.
-std::vector<std::vector<uint32_t>> samplesOfCells(const Lattice& lattice, const std::vector<Cell>& cells,
-                                                  const std::vector<SurfaceSide>& samples) {
-    std::vector<std::vector<uint32_t>> result(cells.size());
-    for (uint32_t i = 0; i < samples.size(); ++i) {
-        const glm::vec3 place =
-            lattice.coordinates(samples[i].position + samples[i].normal * (receiverOffset * lattice.spacing));
-        const glm::ivec3 first(glm::floor(place - margin)), last(glm::floor(place + margin));
-        for (int z = std::max(first.z, 0); z <= last.z; ++z)
-            for (int y = std::max(first.y, 0); y <= last.y; ++y)
-                for (int x = std::max(first.x, 0); x <= last.x; ++x) {
-                    const LatticeKey key = latticeKey(glm::uvec3(x, y, z));
-                    const auto found =
-                        std::lower_bound(cells.begin(), cells.end(), key,
-                                         [](const Cell& cell, LatticeKey k) { return cell.key < k; });
-                    if (found != cells.end() && found->key == key)
-                        result[size_t(found - cells.begin())].push_back(i);
-                }
-    }
-    return result;
-}
-
 class ReceiverGatherer {
 public:
     ReceiverGatherer(const Surroundings& surroundings, const Lattice& grid, const CellTable& cellTable,
@@ -153,24 +129,36 @@ private:
 
 } // namespace
 
-Receivers gatherReceivers(const Surroundings& around, const Lattice& lattice, const CellTable& table,
-                          const std::vector<SurfaceSide>& samples, int threads) {
-    const std::vector<std::vector<uint32_t>> members = samplesOfCells(lattice, table.cells, samples);
-    std::vector<std::vector<Receiver>> ofCell(table.cells.size());
-    parallelFor(
-        ofCell.size(), threads,
-        [&](size_t first, size_t last) {
-            ReceiverGatherer gatherer(around, lattice, table, samples);
-            for (size_t i = first; i < last; ++i) ofCell[i] = gatherer.gather(table.cells[i], members[i]);
-        },
-        32);
-    Receivers result;
-    for (const std::vector<Receiver>& receivers : ofCell) {
-        result.first.push_back(uint32_t(result.receivers.size()));
-        result.receivers.insert(result.receivers.end(), receivers.begin(), receivers.end());
+SamplesOfCells samplesOfCells(const Lattice& lattice, const std::vector<Cell>& cells,
+                              const std::vector<SurfaceSide>& samples) {
+    SamplesOfCells result(cells.size());
+    for (uint32_t i = 0; i < samples.size(); ++i) {
+        const glm::vec3 place =
+            lattice.coordinates(samples[i].position + samples[i].normal * (receiverOffset * lattice.spacing));
+        const glm::ivec3 first(glm::floor(place - margin)), last(glm::floor(place + margin));
+        for (int z = std::max(first.z, 0); z <= last.z; ++z)
+            for (int y = std::max(first.y, 0); y <= last.y; ++y)
+                for (int x = std::max(first.x, 0); x <= last.x; ++x) {
+                    const LatticeKey key = latticeKey(glm::uvec3(x, y, z));
+                    const auto found =
+                        std::lower_bound(cells.begin(), cells.end(), key,
+                                         [](const Cell& cell, LatticeKey k) { return cell.key < k; });
+                    if (found != cells.end() && found->key == key)
+                        result[size_t(found - cells.begin())].push_back(i);
+                }
     }
-    result.first.push_back(uint32_t(result.receivers.size()));
     return result;
+}
+
+std::vector<std::vector<Receiver>> gatherReceivers(const Surroundings& around, const Lattice& lattice,
+                                                   const CellTable& table,
+                                                   const std::vector<SurfaceSide>& samples,
+                                                   const SamplesOfCells& members, uint32_t first,
+                                                   uint32_t last) {
+    std::vector<std::vector<Receiver>> ofCell;
+    ReceiverGatherer gatherer(around, lattice, table, samples);
+    for (uint32_t i = first; i < last; ++i) ofCell.push_back(gatherer.gather(table.cells[i], members[i]));
+    return ofCell;
 }
 
 } // namespace rebound::detail

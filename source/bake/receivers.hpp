@@ -20,12 +20,13 @@ struct Receiver {
     std::array<float, 8> visibility{}; // share of its samples that see a cache
 };
 
-struct Receivers {
-    std::vector<uint32_t> first; // of each cell, and one past the last
-    std::vector<Receiver> receivers;
-};
+// Numbers of the samples in each cell and its margin.
+using SamplesOfCells = std::vector<std::vector<uint32_t>>;
+SamplesOfCells samplesOfCells(const Lattice&, const std::vector<Cell>&, const std::vector<SurfaceSide>&);
 
-Receivers gatherReceivers(const Surroundings&, const Lattice&, const CellTable&,
-                          const std::vector<SurfaceSide>&, int threads);
+// Of cells first to last - 1, those of each.
+std::vector<std::vector<Receiver>> gatherReceivers(const Surroundings&, const Lattice&, const CellTable&,
+                                                   const std::vector<SurfaceSide>&, const SamplesOfCells&,
+                                                   uint32_t first, uint32_t last);
 
 } // namespace rebound::detail

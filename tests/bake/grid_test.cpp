@@ -191,13 +191,13 @@ TEST_CASE("receivers on both sides of a wall see the caches of their own room al
     const GridCells grid = scene.cells(settings);
     const CellTable table = tabulateCells(grid, scene.places(grid));
     const ReceivingSides sides = scene.sides(settings);
-    const Receivers receivers =
-        gatherReceivers({scene.geometry, scene.rays}, grid.lattice, table, sides.sides, 2);
+    const auto receivers = gatherReceivers({scene.geometry, scene.rays}, grid.lattice, table, sides.sides,
+                                           samplesOfCells(grid.lattice, table.cells, sides.sides), 0,
+                                           uint32_t(table.cells.size()));
     size_t atWall = 0, compared = 0, wrong = 0;
     for (size_t c = 0; c < table.cells.size(); ++c) {
-        CHECK(receivers.first[c + 1] - receivers.first[c] <= 8);
-        for (uint32_t r = receivers.first[c]; r < receivers.first[c + 1]; ++r) {
-            const Receiver& receiver = receivers.receivers[r];
+        CHECK(receivers[c].size() <= 8);
+        for (const Receiver& receiver : receivers[c]) {
             const float x = grid.lattice.corner(latticePlace(table.cells[c].key)).x +
                             receiver.position.x * grid.lattice.spacing;
             const bool isInFirst = x < 3.01f;

@@ -39,7 +39,8 @@ inline rebound::Bake bakeOf(const rebound::BakeGeometry& geometry,
                             const rebound::detail::MapRemedies& remedies = {}) {
     const auto caster = rebound::EmbreeRayCaster::build(geometry);
     REQUIRE_MESSAGE(caster, caster.error().message);
-    auto bake = rebound::detail::bakeScene(geometry, *caster, settings, {shift, remedies});
+    rebound::LocalBakeCrew alone;
+    auto bake = rebound::detail::bakeScene(geometry, *caster, settings, {shift, remedies}, alone);
     REQUIRE_MESSAGE(bake, bake.error().message);
-    return *bake;
+    return **bake;
 }

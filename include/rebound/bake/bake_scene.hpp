@@ -3,11 +3,13 @@
 #pragma once
 
 #include "rebound/bake/bake.hpp"
+#include "rebound/bake/bake_crew.hpp"
 #include "rebound/bake/geometry.hpp"
 #include "rebound/bake/rays.hpp"
 #include "rebound/result.hpp"
 
 #include <functional>
+#include <optional>
 #include <string_view>
 
 namespace rebound {
@@ -39,5 +41,9 @@ struct BakeSettings {
 Result<> validate(const BakeSettings&);
 
 Result<Bake> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&);
+
+// The same bits, with the costly work done by a crew: each process of it calls this with the same arguments. Nothing in a
+// process that only helps.
+Result<std::optional<Bake>> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&, BakeCrew&);
 
 } // namespace rebound

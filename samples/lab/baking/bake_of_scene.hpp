@@ -11,4 +11,7 @@ namespace rebound::lab {
 
 Result<Bake> bakeOfScene(std::shared_ptr<const EmbreeScene>, const BakeSettings&);
 
+// By a crew; nothing in a process that only helps.
+Result<std::optional<Bake>> bakeOfScene(std::shared_ptr<const EmbreeScene>, const BakeSettings&, BakeCrew&);
+
 } // namespace rebound::lab
