@@ -166,8 +166,10 @@ Result<int> bake(const BakeOptions& options) {
     auto workers = bakeWorkers();
     if (!workers) return workers.error();
     const Result<> done = bake(options, **workers);
-    if (!done && (*workers)->helpsOnly()) return 2;
-    return exitCodeOf(done);
+    if (done || (*workers)->processes() == 1) return exitCodeOf(done);
+    // Before the workers part: mpirun ends all processes as soon as the first of them has failed.
+    if (!(*workers)->helpsOnly()) std::cerr << "rebound: " + done.error().message + "\n";
+    return 2;
 }
 
 } // namespace
