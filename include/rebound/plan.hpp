@@ -101,9 +101,11 @@ struct Pass {
     std::string kernel;        // name of the kernel, such as "screen_indirect/gather"
     std::vector<int> features; // values of the kernel's features, by their number
     std::vector<PassBinding> bindings;
-    Extent2D grid;               // pixels that the kernel runs for
-    int items = 0;               // of a kernel for items, which has no grid: how many, 1 to maximumItems
-    bool readsElsewhere = false; // it may read buffers that it writes too: elements that it does not write
+    Extent2D grid; // pixels that the kernel runs for
+    int items = 0; // of a kernel for items, which has no grid: how many, 1 to maximumItems
+    // It may read buffers that it writes too: elements that it does not write, or that an item reads before it writes them
+    // itself.
+    bool readsElsewhere = false;
 };
 
 struct Plan {

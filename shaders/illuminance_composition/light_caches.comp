@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "rebound/kernel/kernel.h"
 #include "rebound/techniques/illuminance_composition_constants.h"
+#include "rebound/techniques/cache_update_feature.h"
 #include "rebound/math/bake_packing.h"
 #include "rebound/math/spherical_harmonics.h"
 #include "rebound/math/cache_layout.h"
+#include "rebound/math/settled_light.h"
 
 // Radiance that caches receive through their links: the sum of flux times link, as coefficients of spherical harmonics.
 //                                                          [Jendersie, Kuri, Grosch, eq. 4 and fig. 2, step 4]
 RB_ITEM_KERNEL(LightCaches)
 RB_FEATURE(0, bands, 3)
 RB_FEATURE(1, form, 2)
+RB_FEATURE(2, update, cacheUpdateCount)
 RB_VALUES(0, float, nodes)
 RB_VALUES(1, uint, linkNodes)
 RB_VALUES(2, float, linkFactors)
 RB_VALUES(3, uint, linkShapes)
 RB_OUTPUT_VALUES(4, float, caches)
 RB_CONSTANTS(5, LightCachesConstants, k)
+RB_VALUES(6, float, settled)                 // 1: surfels sent the same in the frame before
+RB_VALUES(7, float, cachesBefore)            // the same as caches
 RB_ITEM_MAIN(item, k.counts.x)
+    if (update == anewUnlessSettled || update == closeUnlessSettled) {
+        if (settled[0] != 0.0f) return;
+    }
     const int coefficients = (bands + 2) * (bands + 2);
     // Coefficients form: bits of a coefficient, how many are in a word, and words of a link.
     const int bits = bands == 0 ? 10 : 8;
@@ -64,7 +72,20 @@ RB_ITEM_MAIN(item, k.counts.x)
         sum[3 * i + 2] *= scale;
     }
     Int first = indexOf(item) * Int(floats / 4);
+    Mask isKept = Real(1.0f) < Real(0.0f);
+    if (update == keptIfClose || update == closeUnlessSettled) {
+        isKept = Real(0.0f) < Real(1.0f);
+        RB_UNROLL
+        for (int i = 0; i < floats / 4; ++i) {
+            Vec4 before = loadFour(cachesBefore, first + Int(i));
+            isKept = isKept && isClose(sum[4 * i], before.x, sum[4 * i % 3]) &&
+                     isClose(sum[4 * i + 1], before.y, sum[(4 * i + 1) % 3]) &&
+                     isClose(sum[4 * i + 2], before.z, sum[(4 * i + 2) % 3]) &&
+                     isClose(sum[4 * i + 3], before.w, sum[(4 * i + 3) % 3]);
+        }
+    }
     RB_UNROLL
     for (int i = 0; i < floats / 4; ++i)
-        storeFour(caches, item, first + Int(i), Vec4(sum[4 * i], sum[4 * i + 1], sum[4 * i + 2], sum[4 * i + 3]));
+        storeFour(caches, item, select(isKept, Int(-1), first + Int(i)),
+                  Vec4(sum[4 * i], sum[4 * i + 1], sum[4 * i + 2], sum[4 * i + 3]));
 RB_END_KERNEL

@@ -27,15 +27,17 @@ class CompositionFrames {
 public:
     Bake bake;
     IlluminanceCompositionSettings settings;
-    Picture depth, normal, mapPlace, albedo, lit, indirect, composed;
-    std::vector<float> light; // [3][surfel]
+    Picture depth, normal, mapPlace, albedo, lit, exponent, indirect, composed, glossy;
+    std::vector<float> light, emission; // [3][surfel]
     Camera camera{glm::mat4(1.0f), glm::ortho(-1.0f, 9.0f, -1.0f, 9.0f, 0.1f, 100.0f)};
 
     CompositionFrames(cpu::Isa isa, const Bake& b, const IlluminanceCompositionSettings& s, int threads = 1)
         : bake(b), settings(s), depth(s.resolution, 1, 4.5f), normal(s.resolution, 3),
           mapPlace(s.resolution, 2, -1.0f), albedo(s.resolution, 3, 0.5f), lit(s.resolution, 3, 0.25f),
           indirect(s.resolution, 3, -7.0f), composed(s.resolution, 3, -7.0f),
-          light(3 * size_t(BakeLayout::stride(b.layout.surfels)), 1.0f) {
+          light(3 * size_t(BakeLayout::stride(b.layout.surfels)), 1.0f), emission(light.size(), 0.0f) {
+        exponent = Picture(s.resolution, 1, 1.0f);
+        glossy = indirect;
         for (size_t i = 2; i < normal.values.size(); i += 3) normal.values[i] = 1.0f;
         const auto valid = validate(bake.layout);
         REQUIRE_MESSAGE(valid, (valid ? "" : valid.error().message));
@@ -72,10 +74,13 @@ public:
         frame.lit = lit.image();
         frame.indirect = indirect.image();
         frame.composed = composed.image();
+        frame.exponent = exponent.image();
+        frame.glossy = glossy.image();
         for (size_t i = 0; i < size_t(bakeSectionCount); ++i)
             frame.sections[i] = cpu::Buffer{
                 const_cast<uint32_t*>(bake.sections[i].data()), bake.sections[i].size_bytes(), {}};
         frame.surfelLight = cpu::Buffer{light.data(), light.size() * sizeof(float), {}};
+        frame.surfelEmission = cpu::Buffer{emission.data(), emission.size() * sizeof(float), {}};
         auto inputs = illuminanceCompositionInputs(settings, frame);
         REQUIRE_MESSAGE(inputs, (inputs ? "" : inputs.error().message));
         return *inputs;

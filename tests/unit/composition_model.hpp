@@ -31,7 +31,11 @@ public:
     }
 
     // Irradiance over pi.
-    glm::dvec3 at(glm::dvec3 position, glm::dvec3 normal) const;
+    glm::dvec3 at(glm::dvec3 position, glm::dvec3 normal) const {
+        return through(position, normal, normal, 1.0);
+    }
+    // Mean radiance over the lobe max(0, cos)^exponent around a direction.
+    glm::dvec3 through(glm::dvec3 position, glm::dvec3 normal, glm::dvec3 direction, double exponent) const;
     // The same at a place of the light map, or, where that lies outside, of the grid.
     glm::dvec3 at(glm::dvec2 mapPlace, glm::dvec3 position, glm::dvec3 normal) const;
 
@@ -148,7 +152,8 @@ inline std::array<double, 8> CompositionModel::visibility(const uint32_t* cell, 
     return seen;
 }
 
-inline glm::dvec3 CompositionModel::at(glm::dvec3 position, glm::dvec3 normal) const {
+inline glm::dvec3 CompositionModel::through(glm::dvec3 position, glm::dvec3 normal, glm::dvec3 direction,
+                                            double exponent) const {
     const BakeLayout& l = bake.layout;
     const glm::dvec3 at = (position - glm::dvec3(l.origin)) / double(l.spacing);
     // In the cell before a wall that lies in a plane of the grid.
@@ -163,7 +168,9 @@ inline glm::dvec3 CompositionModel::at(glm::dvec3 position, glm::dvec3 normal) c
     const glm::dvec3 local = at - glm::dvec3(cell[8] & 1023u, cell[8] >> 10 & 1023u, cell[8] >> 20 & 1023u);
     const glm::dvec3 f = glm::clamp(local, 1e-5, 1.0 - 1e-5);
     const auto seen = visibility(cell, local, normal);
-    const auto y = harmonics(normal);
+    const auto y = harmonics(direction);
+    const double n = exponent, first = (n + 1.0) / (n + 2.0);
+    const double factors[] = {1.0, first, n / (n + 3.0), first * (n - 1.0) / (n + 4.0)};
     std::array<double, 8> weights{};
     double total = 0.0;
     for (uint32_t k = 0; k < 8; ++k) {
@@ -179,7 +186,10 @@ inline glm::dvec3 CompositionModel::at(glm::dvec3 position, glm::dvec3 normal) c
     double kept = 0.0;
     for (uint32_t k = 0; k < 8; ++k) {
         if (weights[k] <= 1e-4 * total) continue;
-        sum += irradiance(cell[k], y) * weights[k];
+        glm::dvec3 radiance(0.0);
+        for (uint32_t i = 0; i < l.coefficients(); ++i)
+            radiance += caches[cell[k]][i] * y[i] * factors[i < 1 ? 0 : i < 4 ? 1 : i < 9 ? 2 : 3];
+        sum += radiance * weights[k];
         kept += weights[k];
     }
     return glm::max(kept > 0.0 ? sum / kept : glm::dvec3(0.0), 0.0);

@@ -42,7 +42,14 @@ TEST_CASE("composition: settings out of range are refused by name") {
               s.resolution = {16385, 1};
           }) == "settings.resolution is 16385x1; 1x1 to 16384x16384 was expected");
     CHECK(refusalWith([](auto& s) { s.writeIndirect = false; }) ==
-          "settings.writeIndirect and settings.compose are both false; one output was expected");
+          "settings.writeIndirect and settings.compose are both false, and settings.glossy is none; one "
+          "output was "
+          "expected");
+    for (float exponent : {-1.0f, 65.0f, std::numeric_limits<float>::quiet_NaN()})
+        CHECK(refusalWith([&](auto& s) {
+                  s.glossy = GlossyLobe::mirror;
+                  s.glossyExponent = exponent;
+              }).find("0 to 64 was expected") != std::string::npos);
     CHECK(refusalWith([](auto& s) { s.lightMap = true; }) ==
           "settings.lightMap is true, but settings.bake has no light map; one that has was expected");
     CHECK(refusalWith([](auto& s) { s.bake = {}; }) ==

@@ -239,8 +239,14 @@ TEST_CASE("fetchMagnified: texels repeated 2^shift times, shifted by a bias, at 
 TEST_CASE("fetchAt: any texel, zero outside") {
     for (int width : widths)
         for (ivec2 o : {ivec2(0, 0), ivec2(-5, -1), ivec2(1000000, 0), ivec2(0, -1000000)})
-            check({accessAt, {width, 5}, {width, 5}, o},
-                  [o](int x, int y) { return ivec2(3 * x, 2 * y) + o; });
+            for (int mode : {accessAt, accessHostAt})
+                check({mode, {width, 5}, {width, 5}, o},
+                      [o](int x, int y) { return ivec2(3 * x, 3 * y) + o; });
+}
+
+TEST_CASE("fetchAt: any texel of an image of the host, in each layout") {
+    for (Extent2D e : {Extent2D{1, 1}, Extent2D{16, 3}, Extent2D{37, 5}})
+        checkHostLayouts(accessHostAt, e, e, ivec2(-4, -1), 3);
 }
 
 TEST_CASE("pixelCenter: half a pixel behind the pixel's number") {

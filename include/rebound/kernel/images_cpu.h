@@ -229,6 +229,18 @@ struct HostImage {
         });
     }
 
+    // Any pixel, lane by lane; zero outside.
+    Vec4 loadAt(IVec2 at) const {
+        alignas(64) int32_t x[laneCount], y[laneCount];
+        storeLanes(x, at.x);
+        storeLanes(y, at.y);
+        alignas(64) float lanes[4][laneCount] = {};
+        for (int i = 0; i < laneCount; ++i)
+            if (unsigned(x[i]) < unsigned(image.width) && unsigned(y[i]) < unsigned(image.height))
+                for (int c = 0; c < image.channels; ++c) lanes[c][i] = numberAt(address(c, x[i], y[i]));
+        return Vec4(loadLanes(lanes[0]), loadLanes(lanes[1]), loadLanes(lanes[2]), loadLanes(lanes[3]));
+    }
+
     void storeLanesOf(Pixel p, const Vec4& v) const {
         if (!isInOnePiece(p.x, p.y, 1)) {
             storeOneByOne(p, v);
@@ -245,6 +257,16 @@ struct HostImage {
     }
 
 private:
+    float numberAt(const char* from) const {
+        if (image.isHalf) {
+            uint16_t half;
+            __builtin_memcpy(&half, from, sizeof half);
+            return halfToFloat(half);
+        }
+        float number;
+        __builtin_memcpy(&number, from, sizeof number);
+        return number;
+    }
     template <class Load>
     Vec4 eachChannel(const char* first, Load loadFrom) const {
         const Real zero(0.0f);
@@ -320,6 +342,8 @@ inline Vec4 fetchMinified(const HostImage& t, Pixel p, ivec2 o) {
 inline Vec4 fetchQuarter(const HostImage& t, Pixel p, ivec2 o) {
     return t.load(4 * p.x + o.x, 4 * p.y + o.y, 4);
 }
+// Any pixel; zero outside. The slowest access on a CPU.
+inline Vec4 fetchAt(const HostImage& t, IVec2 at) { return t.loadAt(at); }
 inline void store(const HostImage& t, Pixel p, const Vec4& v) { t.storeLanesOf(p, v); }
 
 // Images of unsigned integers lie in memory as floats of the same bits.

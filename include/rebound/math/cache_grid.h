@@ -128,12 +128,12 @@ RB_FUNCTION Vec3 lightOfCell(int cell, Vec3 at, Vec3 position, Vec3 normal, Harm
     return sum * reciprocal(max(total, Real(1e-30f)));
 }
 
-// Irradiance over pi at receivers where the mask is true, 0 elsewhere [W m^-2 sr^-1]. Lanes in one cell share the loads of
-// its caches: they are neighbours mostly.
-RB_FUNCTION Vec3 irradianceOfGrid(Vec3 position, Vec3 normal, Mask receives) RB_OF_KERNEL {
+// Mean radiance over a lobe at receivers where the mask is true, 0 elsewhere [W m^-2 sr^-1]. Lanes in one cell share the
+// loads of its caches: they are neighbours mostly.
+RB_FUNCTION Vec3 radianceOfGrid(Vec3 position, Vec3 normal, Harmonics lobeCoefficients,
+                                Mask receives) RB_OF_KERNEL {
     Vec3 at = inCells(position);
     Int placeOfLane = placeInGrid(at + normal * receiverOffset);
-    Harmonics lobeCoefficients = lobe(normal, Real(1.0f));
     Vec3 result = Vec3(0.0f);
     Mask waiting = receives;
     while (anyLane(waiting)) {
@@ -145,6 +145,11 @@ RB_FUNCTION Vec3 irradianceOfGrid(Vec3 position, Vec3 normal, Mask receives) RB_
         waiting = waiting && !here;
     }
     return result;
+}
+
+// Irradiance over pi.
+RB_FUNCTION Vec3 irradianceOfGrid(Vec3 position, Vec3 normal, Mask receives) RB_OF_KERNEL {
+    return radianceOfGrid(position, normal, lobe(normal, Real(1.0f)), receives);
 }
 
 #endif

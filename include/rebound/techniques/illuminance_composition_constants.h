@@ -11,6 +11,9 @@ const int coefficientLinks = 0;
 const int directionLinks = 1;
 const int withoutEmission = 0;
 const int withEmission = 1;
+const int withEmissionOfFrame = 2;
+const int alwaysComputed = 0;
+const int skippedIfSettled = 1;
 
 // Of a light map's texel, in its lower 24 bits: nothing arrives there.
 const int noMapCache = 0xffffff;
@@ -32,6 +35,22 @@ struct LightCachesConstants {
 struct CacheGridConstants {
     vec4 origin;  // .xyz [m], .w cells a metre
     ivec4 bricks; // .xyz of 4 x 4 x 4 cells, along each axis
+};
+
+struct SettleConstants {
+    ivec4 counts; // .x items, .y numbers of each, .z index of the first
+};
+
+// Values of GlossyConstants::lobe.
+const int mirrorLobe = 0;
+const int halfwayLobe = 1;
+const int constantExponent = 0;
+const int exponentOfPixel = 1;
+
+struct GlossyConstants {
+    ivec4 extent;  // .xy of the picture [pixels]
+    ivec4 lobe;    // .x around which direction, .y where the exponent comes from
+    vec4 exponent; // .x
 };
 
 // CacheGridConstants, and what a light map's kernels need beside.

@@ -31,6 +31,7 @@ struct Choice {
     std::string file;         // empty: baked
     std::optional<Bake> read; // from that file
     bool bounces = true;
+    bool skipUnchanged = false;
     bool lightMap = true; // where the bake has one
     View view;
 };
@@ -38,9 +39,10 @@ struct Choice {
 Result<Choice> choiceOf(const Draft& draft, const View& view, Spelling spelling) {
     auto settings = bakeSettingsOf(draft, spelling);
     if (!settings) return settings.error();
-    Choice choice{*settings, {}, {}, true, true, view};
+    Choice choice{*settings, {}, {}, true, false, true, view};
     DraftValues values(draft, spelling);
     values.replaceByName<bool>(choice.bounces, "feedback", switchNames);
+    values.replaceByName<bool>(choice.skipUnchanged, "skip-unchanged", switchNames);
     values.replaceByName<bool>(choice.lightMap, "static-light", carrierNames);
     if (!values.error()) return values.error().error();
     const std::string* file = values.find("bake");
@@ -95,6 +97,7 @@ IlluminanceCompositionSettings settingsOf(const Choice& choice, const BakeLayout
     settings.conventions.projection = choice.view.projection;
     settings.bake = layout;
     settings.bounces = choice.bounces;
+    settings.skipUnchanged = choice.skipUnchanged;
     settings.emission = emission;
     settings.lightMap = choice.lightMap && layout.surfaceCaches > 0;
     return settings;
@@ -103,13 +106,15 @@ IlluminanceCompositionSettings settingsOf(const Choice& choice, const BakeLayout
 Json settingsJson(const Choice& choice) {
     Json json = choice.file.empty() ? toJson(choice.bake) : Json{{"bake", choice.file}};
     json["feedback"] = choice.bounces;
+    json["skipUnchanged"] = choice.skipUnchanged;
     json["static_light"] = choice.lightMap ? "lightmap" : "grid";
     return json;
 }
 
 std::string nameOf(const Choice& choice) {
     return "composition, " + (choice.file.empty() ? techniques::nameOf(choice.bake) : choice.file) +
-           (choice.bounces ? "" : ", one bounce") + (choice.lightMap ? "" : ", grid alone");
+           (choice.bounces ? "" : ", one bounce") + (choice.lightMap ? "" : ", grid alone") +
+           (choice.skipUnchanged ? ", unchanged light skipped" : "");
 }
 
 Result<Configured> withoutInputs(const Choice& choice, const BakeLayout& layout, bool emission) {
@@ -256,6 +261,8 @@ std::vector<Option> options() {
         {"feedback", "SWITCH",
          "surfels receive light of the caches of the frame before, a bounce a frame:\non or off (default: "
          "on)"},
+        {"skip-unchanged", "SWITCH",
+         "light that did not change is not computed again; the same picture: on or off (default: off)"},
     };
     all.push_back({"static-light", "WHICH",
                    "what lights what stands where it was baked, of bakes that have both: lightmap or grid\n"

@@ -16,10 +16,10 @@ RB_MAIN(pixel, k.extent)
     if (mode == accessOffset) r = fetchOffset(source, pixel, offset);
     if (mode == accessMinified) r = fetchMinified(source, pixel, offset);
     if (mode == accessMagnified) r = fetchMagnified(source, pixel, ivec2(k.extent.w), k.extent.z, offset);
-    if (mode == accessAt) {
-        Vec2 center = pixelCenter(pixel);
-        r = fetchAt(source, IVec2(toInt(center.x) * 3 + offset.x, toInt(center.y) * 2 + offset.y));
-    }
+    Vec2 middle = pixelCenter(pixel);
+    IVec2 at = IVec2(toInt(middle.x) * 3 + offset.x, toInt(middle.y) * 3 + offset.y);
+    if (mode == accessAt) r = fetchAt(source, at);
+    if (mode == accessHostAt) r = fetchAt(host, at);
     if (mode == accessReaches) {
         if (reaches(source, pixel, offset)) r = Vec4(1.0f);
     }
@@ -27,9 +27,6 @@ RB_MAIN(pixel, k.extent)
     if (mode == accessHostOffset) r = fetchOffset(host, pixel, offset);
     if (mode == accessHostMinified) r = fetchMinified(host, pixel, offset);
     if (mode == accessHostQuarter) r = fetchQuarter(host, pixel, offset);
-    if (mode == accessCenter) {
-        Vec2 center = pixelCenter(pixel);
-        r = Vec4(center.x, center.y, Real(0.0f), Real(0.0f));
-    }
+    if (mode == accessCenter) r = Vec4(middle.x, middle.y, Real(0.0f), Real(0.0f));
     store(result, pixel, r);
 RB_END_KERNEL

@@ -65,7 +65,8 @@ const int accessHostOffset = 7;
 const int accessHostMinified = 8;
 const int accessCenter = 9;
 const int accessHostQuarter = 10;
-const int accessCount = 11;
+const int accessHostAt = 11;
+const int accessCount = 12;
 
 // Modes of the sparse kernel.
 const int sparseFetch = 0;
