@@ -78,6 +78,14 @@ void GpuScene::addTextures(const lab::Scene& scene) {
         materialTextures.push_back({nameOf(m.baseColorTexture), nameOf(m.emissionTexture)});
 }
 
+void GpuScene::set(const Moment& moment) {
+    lights = moment.lights;
+    moved = moment.offset;
+    const auto bytes = std::as_bytes(std::span(lights.lights));
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, lightBuffer.name());
+    glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(bytes.size()), bytes.data(), GL_STREAM_DRAW);
+}
+
 void GpuScene::draw() const {
     glBindVertexArray(vertexArray.name());
     for (const SceneData::Part& part : parts) {
@@ -87,6 +95,8 @@ void GpuScene::draw() const {
         glBindTexture(GL_TEXTURE_2D, materialTextures[part.material].baseColor);
         glUniform4fv(0, 1, &constants[part.material].baseColor.x);
         glUniform4fv(1, 1, &constants[part.material].emission.x);
+        const glm::vec4 place(part.moves ? moved : glm::vec3(0.0f), 0.0f);
+        glUniform4fv(2, 1, &place.x);
         const size_t offset = part.firstIndex * sizeof(uint32_t);
         glDrawElementsBaseVertex(GL_TRIANGLES, GLsizei(part.indexCount), GL_UNSIGNED_INT,
                                  reinterpret_cast<const void*>(offset), part.vertexOffset);

@@ -4,7 +4,7 @@
 
 #include "objects.hpp"
 
-#include "lab/engine/lights.hpp"
+#include "lab/engine/moment.hpp"
 #include "lab/engine/scene_data.hpp"
 
 namespace rebound::engine {
@@ -15,6 +15,9 @@ public:
 
     // Draws everything with the program in use, which includes shaders/material.glsl.
     void draw() const;
+
+    // From the next frame on.
+    void set(const Moment&);
 
     LightSetup lights;
     Buffer lightBuffer;
@@ -27,6 +30,7 @@ private:
     Buffer vertices, indices;
     std::vector<SceneData::Part> parts;
     std::vector<MaterialConstants> constants; // by material
+    glm::vec3 moved{0.0f};                    // of parts that move
     struct MaterialTextures {
         GLuint baseColor, emission;
     };

@@ -14,20 +14,21 @@ using host::OpenGLContext;
 
 Result<> renderToFile(const Options& o, const std::string& device, const lab::Scene& scene,
                       const lab::CameraView& camera) {
-    auto renderer = Renderer::create(OpenGLContext::functionNamed, scene, o.preset);
+    auto renderer = createRenderer(OpenGLContext::functionNamed, scene, o);
     if (!renderer) return renderer.error();
     if (auto sized = (*renderer)->resize(o.size, camera); !sized) return sized;
-    for (int i = 0; i < o.frames.value_or(2); ++i)
+    for (int i = 0; i < o.frames.value_or(2); ++i) {
+        if (!o.bake.empty()) (*renderer)->set(momentOf(scene, i));
         if (auto rendered = (*renderer)->render(camera); !rendered) return rendered;
+    }
     auto composed = (*renderer)->read((*renderer)->targets().composed, 3);
     if (!composed) return composed.error();
     if (auto fine = checkErrors("while frames were rendered"); !fine) return fine;
     glFinish(); // timings never wait
-    const IndirectLight& indirect = (*renderer)->indirectLight();
-    const auto timings = indirect.timings();
+    const auto timings = (*renderer)->timings();
     return writePicture(o, scene.name, device, upsideDown(*composed),
                         timings ? std::span<const PassTiming>(*timings) : std::span<const PassTiming>(),
-                        indirect.memoryUse());
+                        (*renderer)->memoryUse());
 }
 
 Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& camera) {

@@ -59,6 +59,16 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const opengl::Loader& loader,
     return renderer;
 }
 
+Result<std::unique_ptr<Renderer>> Renderer::create(const opengl::Loader& loader, const lab::Scene& labScene,
+                                                   const Bake& bake) {
+    auto renderer = create(loader, labScene, std::string("quarter-64"));
+    if (!renderer) return renderer.error();
+    auto light = BakedLight::create(loader, bake, !labScene.emissiveMaterialsLight, true);
+    if (!light) return light.error();
+    (*renderer)->baked = *std::move(light);
+    return renderer;
+}
+
 Result<> Renderer::createOnce() {
     if (auto made = makeInto(shadowProgram, "shadow",
                              {{GL_VERTEX_SHADER, shadow_vert}, {GL_FRAGMENT_SHADER, shadow_frag}});
@@ -79,6 +89,11 @@ Result<> Renderer::createOnce() {
 Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
     auto next = std::make_unique<Targets>(size);
     if (auto made = checkErrors("while the targets were made"); !made) return made;
+    if (baked) {
+        if (auto compiled = baked->compile(conventionsOf(view), size); !compiled) return compiled;
+        current = std::move(next);
+        return {};
+    }
     // [rebound resize]
     if (auto compiled = indirect.compile(preset, conventionsOf(view), size); !compiled) return compiled;
     // [/rebound resize]
@@ -145,6 +160,20 @@ ScreenIndirectFrame<opengl::Image> Renderer::indirectFrame(const Camera& camera)
 }
 // [/rebound frame]
 
+// [rebound frame baked]
+IlluminanceCompositionFrame<opengl::Image> Renderer::bakedFrame(const Camera& camera) const {
+    IlluminanceCompositionFrame<opengl::Image> f;
+    f.camera = camera;
+    f.depth = {current->depth.name()};
+    f.normal = {current->normal.name()};
+    f.albedo = {current->albedo.name()};
+    f.lit = {current->lit.name()};
+    f.indirect = {current->indirect.name()};
+    f.composed = {current->composed.name()};
+    return f;
+}
+// [/rebound frame baked]
+
 Result<> Renderer::render(const lab::CameraView& view) {
     const Camera camera = cameraOf(view, current->extent);
     writeFrame(view, camera);
@@ -153,6 +182,10 @@ Result<> Renderer::render(const lab::CameraView& view) {
     drawGBuffer();
     glDisable(GL_DEPTH_TEST);
     light();
+    if (baked) {
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+        return baked->record(bakedFrame(camera), surfelSourcesOf(scene.lights), {shadowMap.name()});
+    }
     // [rebound barriers]
     // Before: the light pass has written with image stores what Rebound is about to fetch. What was rendered, the
     // G-buffer, needs no barrier. After: Rebound has put those for whatever may come.
@@ -162,12 +195,27 @@ Result<> Renderer::render(const lab::CameraView& view) {
     return {};
 }
 
-lab::Image Renderer::readDepth() const {
-    lab::Image image(current->extent, 1);
-    glBindTexture(GL_TEXTURE_2D, current->depth.name());
+namespace {
+
+lab::Image depthOf(const Texture& texture, Extent2D extent) {
+    lab::Image image(extent, 1);
+    glBindTexture(GL_TEXTURE_2D, texture.name());
     glGetTexImage(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, GL_FLOAT, image.data.data());
     glBindTexture(GL_TEXTURE_2D, 0);
     return image;
+}
+
+} // namespace
+
+lab::Image Renderer::readDepth() const { return depthOf(current->depth, current->extent); }
+lab::Image Renderer::readShadowMap() const { return depthOf(shadowMap, {shadowMapSize, shadowMapSize}); }
+
+Result<std::unique_ptr<Renderer>> createRenderer(const opengl::Loader& loader, const lab::Scene& scene,
+                                                 const Options& o) {
+    if (o.bake.empty()) return Renderer::create(loader, scene, o.preset);
+    const auto bake = bakeOf(o);
+    if (!bake) return bake.error();
+    return Renderer::create(loader, scene, *bake);
 }
 
 lab::Image upsideDown(const lab::Image& image) {

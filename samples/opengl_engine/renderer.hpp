@@ -2,10 +2,12 @@
 // A deferred renderer: shadow map, G-buffer, direct light, Rebound's indirect light.
 #pragma once
 
+#include "baked_light.hpp"
 #include "camera.hpp"
 #include "gpu_scene.hpp"
 #include "indirect_light.hpp"
 
+#include "lab/engine/command_line.hpp"
 #include "lab/host/opengl_texture.hpp"
 
 #include <memory>
@@ -36,6 +38,8 @@ class Renderer {
 public:
     static Result<std::unique_ptr<Renderer>> create(const opengl::Loader&, const lab::Scene&,
                                                     std::string preset);
+    // With indirect light from the scene's bake instead of the screen's.
+    static Result<std::unique_ptr<Renderer>> create(const opengl::Loader&, const lab::Scene&, const Bake&);
 
     // Before the first frame, and whenever the size, or the kind of the camera, changes. After a failure nothing has
     // changed.
@@ -44,14 +48,22 @@ public:
     // Issues a frame's commands.
     Result<> render(const lab::CameraView&);
 
+    // What moves is there from the next frame on.
+    void set(const Moment& moment) { scene.set(moment); }
+
     const Targets& targets() const { return *current; }
     const IndirectLight& indirectLight() const { return indirect; }
+    const BakedLight* bakedLight() const { return baked ? &*baked : nullptr; }
+    // Of whichever light there is.
+    Result<std::vector<PassTiming>> timings() const { return baked ? baked->timings() : indirect.timings(); }
+    MemoryUse memoryUse() const { return baked ? baked->memoryUse() : indirect.memoryUse(); }
 
     // For pictures and tests: waits. Rows as the texture has them: the bottom one first.
     Result<lab::Image> read(const host::OpenGLTexture& texture, int channels) const {
         return host::readTexture(texture.name(), texture.extent(), channels);
     }
     lab::Image readDepth() const; // as stored, 0 to 1
+    lab::Image readShadowMap() const;
 
 private:
     Renderer(std::string p, GpuScene s, IndirectLight light)
@@ -62,6 +74,7 @@ private:
     void drawGBuffer() const;
     void light() const;
     ScreenIndirectFrame<opengl::Image> indirectFrame(const Camera&) const;
+    IlluminanceCompositionFrame<opengl::Image> bakedFrame(const Camera&) const;
 
     std::string preset;
     GpuScene scene;
@@ -70,8 +83,12 @@ private:
     Texture shadowMap;
     Framebuffer shadowFramebuffer;
     IndirectLight indirect;
+    std::optional<BakedLight> baked;
     std::unique_ptr<Targets> current;
 };
+
+// As the options say: with the screen's light, or with that of a bake, which is read.
+Result<std::unique_ptr<Renderer>> createRenderer(const opengl::Loader&, const lab::Scene&, const Options&);
 
 // Rows in the opposite order: as files and the lab have them.
 lab::Image upsideDown(const lab::Image&);

@@ -59,7 +59,7 @@ void present(const Renderer& renderer, GLuint program, GLuint vertexArray, float
 
 Result<> showFrames(const Options& o, GLFWwindow* window, const lab::Scene& scene, Orbit& orbit) {
     const auto loader = [](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); };
-    auto renderer = Renderer::create(loader, scene, o.preset);
+    auto renderer = createRenderer(loader, scene, o);
     if (!renderer) return renderer.error();
     if (auto sized = (*renderer)->resize(o.size, orbit.view); !sized) return sized;
     const auto exposure = exposureOf(**renderer, orbit.view);
@@ -81,6 +81,7 @@ Result<> showFrames(const Options& o, GLFWwindow* window, const lab::Scene& scen
         }
         if (size != (*renderer)->targets().extent)
             if (auto sized = (*renderer)->resize(size, orbit.view); !sized) return sized;
+        if (!o.bake.empty()) (*renderer)->set(momentOf(scene, shown));
         if (auto rendered = (*renderer)->render(orbit.view); !rendered) return rendered;
         glViewport(0, 0, size.width, size.height);
         present(**renderer, program->name(), vertexArray.name(), *exposure);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_scene.hpp"
 
+#include <cstring>
+
 namespace rebound::engine {
 namespace {
 
@@ -23,8 +25,11 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(const host::VulkanContext& co
     result->addMeshes(sceneDataOf(scene));
     result->addMaterials(context.device(), scene);
     result->lights = lightsOf(scene);
-    result->lightBuffer = result->objects.buffer(std::as_bytes(std::span(result->lights.lights)),
-                                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const auto lights = std::as_bytes(std::span(result->lights.lights));
+    for (host::VulkanBuffer*& buffer : result->lightBuffers) {
+        buffer = result->objects.mappedBuffer(lights.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        if (buffer) std::memcpy(buffer->mapped, lights.data(), lights.size());
+    }
     if (!result->objects.status()) return result->objects.status().error();
     return result;
 }
@@ -64,6 +69,15 @@ void GpuScene::addMaterials(VkDevice device, const lab::Scene& scene) {
     }
 }
 
+// Lights that are switched off stay in the list, so that it keeps its length.
+void GpuScene::set(const Moment& moment, int frame) {
+    moved.previousOffset = moved.offset;
+    moved.offset = glm::vec4(moment.offset, 0.0f);
+    lights = moment.lights;
+    const auto bytes = std::as_bytes(std::span(lights.lights));
+    std::memcpy(lightBuffers[size_t(frame)]->mapped, bytes.data(), bytes.size());
+}
+
 void GpuScene::draw(VkCommandBuffer commands, VkPipelineLayout layout) const {
     const VkDeviceSize start = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &start);
@@ -71,8 +85,10 @@ void GpuScene::draw(VkCommandBuffer commands, VkPipelineLayout layout) const {
     for (const SceneData::Part& part : parts) {
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1, &sets[part.material],
                                 0, nullptr);
-        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(MaterialConstants),
-                           &constants[part.material]);
+        constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+        const ObjectConstants object = part.moves ? moved : ObjectConstants{};
+        vkCmdPushConstants(commands, layout, stages, 0, sizeof(MaterialConstants), &constants[part.material]);
+        vkCmdPushConstants(commands, layout, stages, sizeof(MaterialConstants), sizeof object, &object);
         vkCmdDrawIndexed(commands, part.indexCount, 1, part.firstIndex, part.vertexOffset, 0);
     }
 }

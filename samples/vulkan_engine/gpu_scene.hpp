@@ -4,8 +4,10 @@
 
 #include "objects.hpp"
 
-#include "lab/engine/lights.hpp"
+#include "lab/engine/moment.hpp"
 #include "lab/engine/scene_data.hpp"
+
+#include <array>
 
 namespace rebound::engine {
 
@@ -17,9 +19,13 @@ public:
     // Draws everything with the bound pipeline of that layout, whose set 1 is a material's.
     void draw(VkCommandBuffer, VkPipelineLayout) const;
 
+    // From the next frame on, whose number in flight it is.
+    void set(const Moment&, int frame);
+
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     LightSetup lights;
-    VkBuffer lightBuffer = VK_NULL_HANDLE;
+    std::array<host::VulkanBuffer*, framesInFlight>
+        lightBuffers{}; // as many as the scene has; by frame in flight
 
 private:
     explicit GpuScene(const host::VulkanContext& context) : objects(context) {}
@@ -31,6 +37,7 @@ private:
     std::vector<SceneData::Part> parts;
     std::vector<VkDescriptorSet> sets;        // by material
     std::vector<MaterialConstants> constants; // by material, pushed
+    ObjectConstants moved;                    // of parts that move, pushed
 };
 
 } // namespace rebound::engine

@@ -18,11 +18,12 @@ constexpr bool hasWindow = false;
 // Renders frames, each after the one before is done, and writes the last one.
 Result<> renderToFile(const Options& o, const host::VulkanContext& context, const lab::Scene& scene,
                       const lab::CameraView& camera) {
-    auto renderer = Renderer::create(context, scene, o.preset);
+    auto renderer = createRenderer(context, scene, o);
     if (!renderer) return renderer.error();
     if (auto sized = (*renderer)->resize(o.size, camera); !sized) return sized;
     const int frames = o.frames.value_or(2);
     for (int i = 0; i < frames; ++i) {
+        if (!o.bake.empty()) (*renderer)->set(momentOf(scene, i), i % framesInFlight);
         const auto done = context.run([&](VkCommandBuffer commands) {
             return (*renderer)->record(commands, i % framesInFlight, camera);
         });
@@ -30,11 +31,10 @@ Result<> renderToFile(const Options& o, const host::VulkanContext& context, cons
     }
     auto composed = (*renderer)->read((*renderer)->targets().composed, 3);
     if (!composed) return composed.error();
-    const IndirectLight& indirect = (*renderer)->indirectLight();
-    const auto timings = indirect.timings();
+    const auto timings = (*renderer)->timings();
     return writePicture(o, scene.name, context.deviceName(), *composed,
                         timings ? std::span<const PassTiming>(*timings) : std::span<const PassTiming>(),
-                        indirect.memoryUse());
+                        (*renderer)->memoryUse());
 }
 
 Result<> run(const Options& o, const lab::Scene& scene, const lab::CameraView& camera) {

@@ -174,8 +174,9 @@ Passes makePasses(Objects& objects, VkDescriptorSetLayout materialLayout) {
         objects.setLayout({sampled, sampled, sampled, sampled, sampled, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
                           VK_SHADER_STAGE_COMPUTE_BIT);
-    p.sceneLayout = objects.pipelineLayout({p.frameLayout, materialLayout}, VK_SHADER_STAGE_FRAGMENT_BIT,
-                                           sizeof(MaterialConstants));
+    p.sceneLayout = objects.pipelineLayout({p.frameLayout, materialLayout},
+                                           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+                                           sizeof(MaterialConstants) + sizeof(ObjectConstants));
     p.lightPipelineLayout = objects.pipelineLayout({p.frameLayout, p.lightLayout});
     p.shadowPass = makeRenderPass(objects, {});
     p.gbufferPass = makeRenderPass(objects, {colorFormat, colorFormat, colorFormat, motionFormat});

@@ -29,13 +29,32 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const host::VulkanContext& co
     return renderer;
 }
 
+Result<std::unique_ptr<Renderer>> Renderer::create(const host::VulkanContext& context,
+                                                   const lab::Scene& scene, const Bake& bake) {
+    auto renderer = create(context, scene, std::string("quarter-64"));
+    if (!renderer) return renderer.error();
+    auto light = BakedLight::create(context, bake, !scene.emissiveMaterialsLight, true);
+    if (!light) return light.error();
+    (*renderer)->baked = *std::move(light);
+    return renderer;
+}
+
+Result<std::unique_ptr<Renderer>> createRenderer(const host::VulkanContext& context, const lab::Scene& scene,
+                                                 const Options& o) {
+    if (o.bake.empty()) return Renderer::create(context, scene, o.preset);
+    const auto bake = bakeOf(o);
+    if (!bake) return bake.error();
+    return Renderer::create(context, scene, *bake);
+}
+
 Result<> Renderer::createOnce(const lab::Scene& labScene) {
     auto made = GpuScene::create(context, labScene);
     if (!made) return made.error();
     scene = *std::move(made);
     passes = makePasses(objects, scene->materialLayout);
     shadowMap = objects.image({shadowMapSize, shadowMapSize}, depthFormat,
-                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                               VK_IMAGE_ASPECT_DEPTH_BIT);
     shadowFramebuffer = makeFramebuffer(objects, passes.shadowPass, {shadowMap});
     VkPhysicalDeviceProperties properties;
@@ -84,28 +103,44 @@ Result<> Renderer::resize(Extent2D size, const lab::CameraView& view) {
     constexpr VkDescriptorType sampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
                                buffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    const VkDescriptorPool pool = next->objects.descriptorPool(1, {{sampled, 5}, {image, 2}, {buffer, 1}});
-    const VkDescriptorSet set = next->lightSet = next->objects.descriptorSet(pool, passes.lightLayout);
+    const VkDescriptorPool pool = next->objects.descriptorPool(
+        framesInFlight,
+        {{sampled, 5 * framesInFlight}, {image, 2 * framesInFlight}, {buffer, framesInFlight}});
+    for (VkDescriptorSet& set : next->lightSets) set = next->objects.descriptorSet(pool, passes.lightLayout);
     if (!next->objects.status()) return next->objects.status();
     const VkDevice device = context.device();
     constexpr VkImageLayout depthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    writeImage(device, set, 0, sampled, passes.nearest, next->depth.view, depthLayout);
-    uint32_t binding = 1;
-    for (const Objects::Image& color : {next->normal, next->albedo, next->emission})
-        writeImage(device, set, binding++, sampled, passes.nearest, color.view,
-                   VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    writeImage(device, set, 4, sampled, passes.nearest, shadowMap.view, depthLayout);
-    writeImage(device, set, 5, image, VK_NULL_HANDLE, next->lit.view, VK_IMAGE_LAYOUT_GENERAL);
-    writeImage(device, set, 7, image, VK_NULL_HANDLE, next->radiance.view, VK_IMAGE_LAYOUT_GENERAL);
-    writeBuffer(device, set, 6, buffer, scene->lightBuffer, VK_WHOLE_SIZE);
+    for (size_t i = 0; i < next->lightSets.size(); ++i) {
+        const VkDescriptorSet set = next->lightSets[i];
+        writeImage(device, set, 0, sampled, passes.nearest, next->depth.view, depthLayout);
+        uint32_t binding = 1;
+        for (const Objects::Image& color : {next->normal, next->albedo, next->emission})
+            writeImage(device, set, binding++, sampled, passes.nearest, color.view,
+                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        writeImage(device, set, 4, sampled, passes.nearest, shadowMap.view, depthLayout);
+        writeImage(device, set, 5, image, VK_NULL_HANDLE, next->lit.view, VK_IMAGE_LAYOUT_GENERAL);
+        writeImage(device, set, 7, image, VK_NULL_HANDLE, next->radiance.view, VK_IMAGE_LAYOUT_GENERAL);
+        writeBuffer(device, set, 6, buffer, scene->lightBuffers[i]->buffer, VK_WHOLE_SIZE);
+    }
+    if (auto compiled = compile(view, size); !compiled) return compiled; // nothing has changed yet
+    if (current) retire(current);
+    current = std::move(next);
+    previousViewProjection.reset();
+    return {};
+}
+
+Result<> Renderer::compile(const lab::CameraView& view, Extent2D size) {
+    if (baked) {
+        auto replaced = baked->compile(conventionsOf(view), size);
+        if (!replaced) return replaced.error();
+        if (*replaced) retire(std::make_shared<vulkan::Program>(**std::move(replaced)));
+        return {};
+    }
     // [rebound resize]
     auto replaced = indirect.compile(preset, conventionsOf(view), size);
     if (!replaced) return replaced.error(); // nothing has changed yet
     if (*replaced) retire(std::make_shared<vulkan::Program>(**std::move(replaced)));
     // [/rebound resize]
-    if (current) retire(current);
-    current = std::move(next);
-    previousViewProjection.reset();
     return {};
 }
 
@@ -153,7 +188,7 @@ void Renderer::recordRasterPass(VkCommandBuffer commands, int frame, VkRenderPas
 
 void Renderer::recordLightPass(VkCommandBuffer commands, int frame) const {
     const uint32_t offset = uint32_t(frameStride) * uint32_t(frame);
-    const VkDescriptorSet sets[] = {frameSet, current->lightSet};
+    const VkDescriptorSet sets[] = {frameSet, current->lightSets[size_t(frame)]};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, passes.light);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, passes.lightPipelineLayout, 0, 2, sets,
                             1, &offset);
@@ -180,6 +215,29 @@ ScreenIndirectFrame<vulkan::Image> Renderer::indirectFrame(const Camera& camera)
     return f;
 }
 // [/rebound frame]
+
+// [rebound frame baked]
+IlluminanceCompositionFrame<vulkan::Image> Renderer::bakedFrame(const Camera& camera) const {
+    const ScreenIndirectFrame<vulkan::Image> screen = indirectFrame(camera);
+    IlluminanceCompositionFrame<vulkan::Image> f;
+    f.camera = camera;
+    f.depth = screen.depth;
+    f.normal = screen.normal;
+    f.albedo = screen.albedo;
+    f.lit = screen.lit;
+    f.indirect = screen.indirect;
+    f.composed = screen.composed;
+    return f;
+}
+// [/rebound frame baked]
+
+Result<> Renderer::recordIndirect(VkCommandBuffer commands, int frame, const Camera& camera) {
+    if (!baked) return indirect.record(commands, frame, indirectFrame(camera));
+    // The shadow map's render pass has left it for compute shaders to read, as it has the light pass's inputs.
+    const vulkan::Image shadows{shadowMap.view, shadowMap.extent, shadowMap.format,
+                                VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL};
+    return baked->record(commands, frame, bakedFrame(camera), surfelSourcesOf(scene->lights), shadows);
+}
 
 Result<> Renderer::record(VkCommandBuffer commands, int frame, const lab::CameraView& view) {
     destroyRetired();
@@ -209,7 +267,7 @@ Result<> Renderer::record(VkCommandBuffer commands, int frame, const lab::Camera
     // Between: what the light pass wrote is what Rebound reads.
     recordBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-    if (auto recorded = indirect.record(commands, frame, indirectFrame(camera)); !recorded) return recorded;
+    if (auto recorded = recordIndirect(commands, frame, camera); !recorded) return recorded;
     // After: compute shaders have written composed; here a fragment shader or a copy reads it.
     recordBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                   VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

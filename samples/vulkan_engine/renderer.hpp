@@ -2,11 +2,13 @@
 // A deferred renderer: shadow map, G-buffer, direct light, Rebound's indirect light. One queue, two frames in flight.
 #pragma once
 
+#include "baked_light.hpp"
 #include "camera.hpp"
 #include "gpu_scene.hpp"
 #include "indirect_light.hpp"
 #include "passes.hpp"
 
+#include "lab/engine/command_line.hpp"
 #include "lab/images/image.hpp"
 
 namespace rebound::engine {
@@ -21,7 +23,7 @@ struct Targets {
     Objects::Image radiance;           // what of it surfaces send to be gathered
     Objects::Image indirect, composed; // written by Rebound
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    VkDescriptorSet lightSet = VK_NULL_HANDLE;
+    std::array<VkDescriptorSet, framesInFlight> lightSets{};
     bool used = false; // until then, images have no layout
 };
 
@@ -30,6 +32,9 @@ public:
     // The context outlives it; not the scene.
     static Result<std::unique_ptr<Renderer>> create(const host::VulkanContext&, const lab::Scene&,
                                                     std::string preset, vulkan::MemoryAllocator = {});
+    // With indirect light from the scene's bake instead of the screen's.
+    static Result<std::unique_ptr<Renderer>> create(const host::VulkanContext&, const lab::Scene&,
+                                                    const Bake&);
 
     // Before the first frame, and whenever the size, or the kind of the camera, changes.
     Result<> resize(Extent2D, const lab::CameraView&);
@@ -38,8 +43,16 @@ public:
     // in layout GENERAL, written by compute shaders.
     Result<> record(VkCommandBuffer, int frame, const lab::CameraView&);
 
+    // What moves is there in the frame of that number, to be recorded next.
+    void set(const Moment& moment, int frame) { scene->set(moment, frame); }
+
     const Targets& targets() const { return *current; }
     const IndirectLight& indirectLight() const { return indirect; }
+    const BakedLight* bakedLight() const { return baked.get(); }
+    // Of whichever light there is.
+    Result<std::vector<PassTiming>> timings() const { return baked ? baked->timings() : indirect.timings(); }
+    MemoryUse memoryUse() const { return baked ? baked->memoryUse() : indirect.memoryUse(); }
+    const Objects::Image& shadows() const { return shadowMap; }
 
     // The image's first channels, once the GPU is done: for pictures and tests. It was last written by compute shaders,
     // or was an attachment. Device depth is one channel.
@@ -55,6 +68,9 @@ private:
                           VkPipelineLayout, Extent2D, std::span<const VkClearValue>) const;
     void recordLightPass(VkCommandBuffer, int frame) const;
     ScreenIndirectFrame<vulkan::Image> indirectFrame(const Camera&) const;
+    IlluminanceCompositionFrame<vulkan::Image> bakedFrame(const Camera&) const;
+    Result<> recordIndirect(VkCommandBuffer, int frame, const Camera&);
+    Result<> compile(const lab::CameraView&, Extent2D);
 
     const host::VulkanContext& context;
     std::string preset;
@@ -69,6 +85,7 @@ private:
     VkFramebuffer shadowFramebuffer = VK_NULL_HANDLE;
     std::optional<glm::mat4> previousViewProjection;
     IndirectLight indirect;
+    std::unique_ptr<BakedLight> baked;
     std::shared_ptr<Targets> current;
 
     // What a resize has replaced, and how many frames have been recorded since: kept until the GPU is done with it.
@@ -80,5 +97,9 @@ private:
     void retire(std::shared_ptr<const void> object) { retired.push_back({std::move(object)}); }
     void destroyRetired();
 };
+
+// As the options say: with the screen's light, or with that of a bake, which is read.
+Result<std::unique_ptr<Renderer>> createRenderer(const host::VulkanContext&, const lab::Scene&,
+                                                 const Options&);
 
 } // namespace rebound::engine

@@ -69,7 +69,7 @@ Result<> Window::show(const Options& o, const host::VulkanContext& context, cons
         return windowError("the window cannot show what Vulkan draws");
     auto swapchain = Swapchain::create(context, surface.handle);
     if (!swapchain) return swapchain.error();
-    auto renderer = Renderer::create(context, scene, o.preset);
+    auto renderer = createRenderer(context, scene, o);
     if (!renderer) return renderer.error();
     if (auto sized = (*renderer)->resize(o.size, view); !sized) return sized;
     const auto exposure = exposureOf(context, **renderer, view);
@@ -98,6 +98,7 @@ Result<> Window::show(const Options& o, const host::VulkanContext& context, cons
             (*loop)->abandon();
             continue;
         }
+        if (!o.bake.empty()) (*renderer)->set(momentOf(scene, shown), (*loop)->frame());
         if (auto recorded = (*renderer)->record(*commands, (*loop)->frame(), view); !recorded)
             return recorded;
         (*swapchain)

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "command_line.hpp"
 
+#include "moment.hpp"
+
 #include "lab/files/command_line_error.hpp"
 #include "lab/images/image_files.hpp"
 #include "lab/rays/camera_rays.hpp"
 #include "lab/scenes/scene_files.hpp"
+#ifdef REBOUND_HAS_BAKE
+#include "rebound/bake/bake_file.hpp"
+#endif
 #include "rebound/techniques/screen_indirect.hpp"
 
 #include <CLI/CLI.hpp>
@@ -41,6 +46,7 @@ Result<> loadAndRun(const Options& o, const Run& run) {
     auto camera = lab::findCamera(*scene, o.camera);
     if (!camera) return camera.error();
     if (auto valid = lab::validate(*camera); !valid) return valid;
+    if (!o.bake.empty()) addBall(*scene);
     if (auto done = run(o, *scene, *camera); !done) return done;
     for (const std::string& note : scene->notes) std::printf("note: %s\n", note.c_str());
     return {};
@@ -56,6 +62,9 @@ int parseAndRun(int argc, char** argv, const ProgramText& program, const Run& ru
     app.add_option("--camera", o.camera, "a camera's name (default: the first)");
     app.add_option("--size", size, "WIDTHxHEIGHT in pixels (default: 1280x720)");
     app.add_option("--preset", o.preset, "Rebound's preset (default: quarter-64)");
+    app.add_option("--bake", o.bake,
+                   "what rebound bake has made of the scene: its indirect light instead of the screen's,\n"
+                   "with a ball and lights that move");
     app.add_option("--out", o.out, "the picture (default: " + program.out + ")");
     app.add_option("--frames", o.frames,
                    "frames to render; the last one is written (default: 2; in a window, until it is closed)");
@@ -93,13 +102,22 @@ int runProgram(int argc, char** argv, const ProgramText& program, const Run& run
     }
 }
 
+Result<Bake> bakeOf(const Options& o) {
+#ifdef REBOUND_HAS_BAKE
+    return readBake(o.bake);
+#else
+    return Error{ErrorCode::unsupported, "--bake is " + o.bake + "; this build reads no bakes"};
+#endif
+}
+
 Result<> writePicture(const Options& o, const std::string& scene, const std::string& device,
                       const lab::Image& composed, std::span<const PassTiming> timings,
                       const MemoryUse& memory) {
     const lab::ToneCurve curve = lab::automaticToneCurve(composed);
     if (auto written = lab::writePng(o.out, lab::toneMap(composed, curve)); !written) return written;
-    std::printf("%s, %d x %d, preset %s, on %s\n", scene.c_str(), o.size.width, o.size.height,
-                o.preset.c_str(), device.c_str());
+    std::printf("%s, %d x %d, %s %s, on %s\n", scene.c_str(), o.size.width, o.size.height,
+                o.bake.empty() ? "preset" : "bake", o.bake.empty() ? o.preset.c_str() : o.bake.c_str(),
+                device.c_str());
     double sum = 0.0;
     for (const PassTiming& t : timings) {
         std::printf("%9.3f ms  %s\n", t.milliseconds, t.label.c_str());

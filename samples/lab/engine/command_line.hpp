@@ -4,6 +4,7 @@
 
 #include "lab/images/image.hpp"
 #include "lab/scenes/scene.hpp"
+#include "rebound/bake/bake.hpp"
 #include "rebound/device.hpp"
 
 #include <functional>
@@ -15,6 +16,8 @@ namespace rebound::engine {
 
 struct Options {
     std::string scene = "builtin:atrium", view, camera, preset = "quarter-64", out, device;
+    std::string
+        bake; // of the scene: light is composed from it, and a ball and lights move; empty: screen-space light
     Extent2D size{1280, 720};
     std::optional<int> frames; // absent: 2, or in a window as many as it takes until it is closed
     bool validation = false;
@@ -31,6 +34,9 @@ struct ProgramText {
 // Parses, loads the scene, and hands it on. Returns the program's exit code: 0, or 2 with one sentence on standard error.
 int runProgram(int argc, char** argv, const ProgramText&,
                const std::function<Result<>(const Options&, const lab::Scene&, const lab::CameraView&)>&);
+
+// Reads the bake that the options name. Fails where the build cannot read bakes.
+Result<Bake> bakeOf(const Options&);
 
 // Writes the picture, row 0 on top, and says what it took.
 Result<> writePicture(const Options&, const std::string& scene, const std::string& device,

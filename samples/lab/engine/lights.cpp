@@ -107,14 +107,6 @@ void addEmissiveSurfaces(const lab::Scene& scene, std::vector<GpuLight>& lights)
     }
 }
 
-// The light that casts shadows, or none.
-const lab::Light* shadowCaster(const lab::Scene& scene) {
-    for (lab::LightType type : {lab::LightType::directional, lab::LightType::spot, lab::LightType::area})
-        for (const lab::Light& light : scene.lights)
-            if (light.type == type) return &light;
-    return nullptr;
-}
-
 void aimShadowMap(const lab::Scene& scene, const lab::Light& light, LightSetup& setup) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const lab::Mesh& mesh : scene.meshes)
@@ -142,15 +134,24 @@ void aimShadowMap(const lab::Scene& scene, const lab::Light& light, LightSetup& 
 
 } // namespace
 
-LightSetup lightsOf(const lab::Scene& scene) {
+const lab::Light* shadowCaster(const std::vector<lab::Light>& lights) {
+    for (lab::LightType type : {lab::LightType::directional, lab::LightType::spot, lab::LightType::area})
+        for (const lab::Light& light : lights)
+            if (light.type == type) return &light;
+    return nullptr;
+}
+
+LightSetup lightsOf(const lab::Scene& scene) { return lightsOf(scene, scene.lights); }
+
+LightSetup lightsOf(const lab::Scene& scene, const std::vector<lab::Light>& lights) {
     LightSetup setup;
-    const lab::Light* caster = shadowCaster(scene);
+    const lab::Light* caster = shadowCaster(lights);
     if (caster) {
         addLight(*caster, setup.lights);
         aimShadowMap(scene, *caster, setup);
     }
     setup.shadowed = int(setup.lights.size());
-    for (const lab::Light& light : scene.lights)
+    for (const lab::Light& light : lights)
         if (&light != caster) addLight(light, setup.lights);
     addEmissiveSurfaces(scene, setup.lights);
     setup.emissionIsDirectLight = scene.emissiveMaterialsLight;

@@ -27,5 +27,10 @@ struct LightSetup {
 inline constexpr int shadowMapSize = 2048; // [texels]
 
 LightSetup lightsOf(const lab::Scene&);
+// With other lights than the scene's.
+LightSetup lightsOf(const lab::Scene&, const std::vector<lab::Light>&);
+
+// The light that casts shadows, or null.
+const lab::Light* shadowCaster(const std::vector<lab::Light>&);
 
 } // namespace rebound::engine

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene_data.hpp"
 
+#include "moment.hpp"
+
 namespace rebound::engine {
 
 SceneData sceneDataOf(const lab::Scene& scene) {
@@ -8,7 +10,7 @@ SceneData sceneDataOf(const lab::Scene& scene) {
     for (const lab::Mesh& mesh : scene.meshes) {
         if (mesh.indices.empty()) continue;
         data.parts.push_back({uint32_t(data.indices.size()), uint32_t(mesh.indices.size()),
-                              int32_t(data.vertices.size()), size_t(mesh.material)});
+                              int32_t(data.vertices.size()), size_t(mesh.material), mesh.name == movingMesh});
         data.indices.insert(data.indices.end(), mesh.indices.begin(), mesh.indices.end());
         for (size_t i = 0; i < mesh.positions.size(); ++i)
             data.vertices.push_back({mesh.positions[i], mesh.normals[i], textureCoordinate(mesh, i),

@@ -16,12 +16,17 @@ struct Vertex {
 struct MaterialConstants {
     glm::vec4 baseColor, emission;
 };
+// Behind them: how far a mesh is from where its vertices are, in this frame and in the one before. .xyz [m]
+struct ObjectConstants {
+    glm::vec4 offset{0.0f}, previousOffset{0.0f};
+};
 
 struct SceneData {
     struct Part {
         uint32_t firstIndex, indexCount;
         int32_t vertexOffset;
         size_t material;
+        bool moves; // drawn where Moment::offset says
     };
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
