@@ -29,8 +29,8 @@ TEST_CASE("conform compares every built-in scene at the size that it is given") 
         run("conform --backends baseline --cases 0 --only builtin: --size 33x17 --json", folder.path());
     REQUIRE_MESSAGE(outcome.exitCode == 0, outcome.errors);
     const auto json = nlohmann::json::parse(outcome.output);
-    // Two settings of one technique and one of the other, and two sizes of the Cornell box with the first of each.
-    CHECK(json.at("cases") == 5 * (2 + 1) + 2 * 2);
+    // Two settings of each of two techniques, and two sizes of the Cornell box with the first of each.
+    CHECK(json.at("cases") == 5 * (2 + 2) + 2 * 2);
     // 33x17 pixels take at most that many texels a case and image.
     for (const auto& pass : json.at("passes")) {
         CAPTURE(pass.dump());

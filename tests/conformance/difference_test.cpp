@@ -19,7 +19,7 @@ ImageTolerance toleranceOfNamed(const char* name, Format format) {
     Plan plan{"test", {}, {}};
     plan.add({"depth", ResourceKind::input, Format::r32f, 1, {10, 8}, {}, 0});
     const auto r = plan.add({name, ResourceKind::transient, format, 4, extent, {}, 0});
-    return screenIndirectTolerances(plan, 10.0f)[size_t(r)];
+    return techniqueTolerances(plan, 10.0f)[size_t(r)];
 }
 
 Difference single(const char* name, Format format, const lab::Image& a, const lab::Image& b) {
@@ -101,7 +101,7 @@ TEST_CASE("surfaces at the frame's own resolution are no choice, and those of co
     plan.add({"depth", ResourceKind::input, Format::r32f, 1, extent, {}, 0});
     plan.add({"surface 0", ResourceKind::transient, Format::rgba32f, 4, extent, {}, 0});
     plan.add({"surface 1", ResourceKind::transient, Format::rgba32f, 4, {3, 2}, {}, 0});
-    const auto tolerances = screenIndirectTolerances(plan, 1.0f);
+    const auto tolerances = techniqueTolerances(plan, 1.0f);
     CHECK_FALSE(tolerances[1].isChosen);
     CHECK(tolerances[2].isChosen);
 }

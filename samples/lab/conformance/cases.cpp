@@ -122,7 +122,7 @@ Result<Case> sceneCase(const std::string& name, const techniques::Technique& tec
     if (!inputs) return inputs.error();
     float largestRadiance = 0;
     for (const float value : outgoing.data) largestRadiance = std::max(largestRadiance, value);
-    auto tolerances = screenIndirectTolerances(whole->plan, largestRadiance);
+    auto tolerances = techniqueTolerances(whole->plan, largestRadiance);
     return Case{std::move(whole->plan), *std::move(inputs), Precision::half, std::move(tolerances)};
 }
 

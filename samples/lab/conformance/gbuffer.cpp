@@ -149,7 +149,7 @@ Result<Case> caseOf(const GBuffer& g, runner::Precision precision) {
     float largestRadiance = 0;
     for (float value : g.frame.radiance.data)
         if (std::isfinite(value)) largestRadiance = std::max(largestRadiance, value);
-    auto tolerances = screenIndirectTolerances(*plan, largestRadiance);
+    auto tolerances = techniqueTolerances(*plan, largestRadiance);
     return Case{*std::move(plan), *std::move(inputs), precision, std::move(tolerances)};
 }
 

@@ -20,7 +20,7 @@ ImageTolerance toleranceOf(Format format) {
     return same({2e-6, 0.0, "a division, and a product or two"});
 }
 
-std::vector<ImageTolerance> screenIndirectTolerances(const Plan& plan, float largestRadiance) {
+std::vector<ImageTolerance> techniqueTolerances(const Plan& plan, float largestRadiance) {
     const Extent2D full = plan.resources[size_t(plan.find("depth"))].extent;
     const Tolerance area{
         2e-5, 0.0,
@@ -33,6 +33,8 @@ std::vector<ImageTolerance> screenIndirectTolerances(const Plan& plan, float lar
         "the half's rounding, which may differ by one; where surfaces lie in one plane the cosine is "
         "what rounding leaves of a distance, 1e-6, times the brightest sender; halves below the "
         "smallest normal one may be 0"};
+    const Tolerance links{2e-6, 1e-7 * double(largestRadiance),
+                          "a sum over links of either sign, which may leave next to nothing of them"};
     std::vector<ImageTolerance> tolerances;
     for (const Resource& r : plan.resources) {
         ImageTolerance t = toleranceOf(r.format);
@@ -46,6 +48,8 @@ std::vector<ImageTolerance> screenIndirectTolerances(const Plan& plan, float lar
             t.channels[3] = ratio;
         } else if (r.name.starts_with("gathered ")) {
             t.channels.fill(ring);
+        } else if (r.name == "caches") {
+            t.channels.fill(links);
         }
         tolerances.push_back(t);
     }

@@ -28,7 +28,7 @@ struct ImageTolerance {
 // Of an image or a buffer of numbers of that format, of which nothing else is known.
 ImageTolerance toleranceOf(Format);
 
-// By resource, of a plan of screen_indirect; largestRadiance: of its inputs.
-std::vector<ImageTolerance> screenIndirectTolerances(const Plan&, float largestRadiance);
+// By resource, of a plan of one of the lab's techniques; largestRadiance: of its inputs.
+std::vector<ImageTolerance> techniqueTolerances(const Plan&, float largestRadiance);
 
 } // namespace rebound::conformance
