@@ -20,7 +20,6 @@ uint32_t packPlace(glm::vec3 position) {
     return steps.x | steps.y << 10 | steps.z << 20;
 }
 
-constexpr size_t wordsOfReceiver = 4;
 void packReceiver(const Receiver& receiver, std::vector<uint32_t>& words) {
     words.push_back(packPlace(receiver.position));
     words.push_back(packOctahedral(receiver.normal));
