@@ -3,6 +3,7 @@
 #include "composition_views.hpp"
 
 TEST_CASE("caches light two rooms as accurately as stated, no less and no more") {
-    rebound::accuracy::checkComposition(
-        [](const std::string& view) { return view == "cornell_box/front" || view == "fox_room/front"; });
+    rebound::accuracy::checkComposition("moderate", [](const std::string& view) {
+        return view == "cornell_box/front" || view == "fox_room/front";
+    });
 }

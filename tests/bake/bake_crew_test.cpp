@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -56,8 +57,7 @@ void checkSame(const Result<std::optional<Bake>>& made, const Bake& expected) {
     for (size_t i = 0; i < size_t(bakeSectionCount); ++i) {
         INFO("section ", name(BakeSection(i)));
         REQUIRE(bake.sections[i].size() == expected.sections[i].size());
-        CHECK(std::memcmp(bake.sections[i].data(), expected.sections[i].data(),
-                          bake.sections[i].size_bytes()) == 0);
+        CHECK(std::ranges::equal(bake.sections[i], expected.sections[i]));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -48,8 +49,7 @@ TEST_CASE("a bake is read as it was written, and mapped memory outlives the file
         CHECK(std::memcmp(&read->layout, &written.layout, sizeof(BakeLayout)) == 0);
         for (size_t i = 0; i < size_t(bakeSectionCount); ++i) {
             REQUIRE(read->sections[i].size() == written.sections[i].size());
-            CHECK(std::memcmp(read->sections[i].data(), written.sections[i].data(),
-                              4 * written.sections[i].size()) == 0);
+            CHECK(std::ranges::equal(read->sections[i], written.sections[i]));
             CHECK(reinterpret_cast<uintptr_t>(read->sections[i].data()) % 64 == 0);
         }
         CHECK(validate(*read));

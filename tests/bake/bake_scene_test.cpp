@@ -60,8 +60,7 @@ TEST_CASE("a bake is the same for any number of threads") {
         for (size_t i = 0; i < size_t(bakeSectionCount); ++i) {
             INFO("section ", name(BakeSection(i)));
             REQUIRE(one.sections[i].size() == many.sections[i].size());
-            CHECK(std::memcmp(one.sections[i].data(), many.sections[i].data(), 4 * one.sections[i].size()) ==
-                  0);
+            CHECK(std::ranges::equal(one.sections[i], many.sections[i]));
         }
     }
     settings.seed = 1; // surfels elsewhere
