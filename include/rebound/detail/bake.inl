@@ -70,14 +70,13 @@ inline Result<> validateStages(const BakeLayout& l) {
 }
 
 inline Result<> validateMap(const BakeLayout& l) {
-    const bool isThere = l.surfaceCaches > 0;
-    const uint32_t sides = l.mapBackRow > 0 ? 2 : 1;
+    const uint64_t isThere = l.surfaceCaches > 0 ? 1 : 0, sides = l.mapBackRow > 0 ? 2 : 1;
     for (const BakeRange& r :
          {BakeRange{"number of surface caches", l.surfaceCaches, 0, std::min(l.caches, 0xffffffu) - 1},
           {"light map's width", l.mapSize.x, isThere, isThere * maximumMapSide},
           {"light map's height", l.mapSize.y, isThere * sides, isThere * sides * maximumMapSide},
           {"light map's row of back sides", l.mapBackRow, 0, l.mapSize.y / 2},
-          {"number of mapped triangles", l.mapTriangles, isThere, isThere * uint64_t(0xffffffffu / 3)}})
+          {"number of mapped triangles", l.mapTriangles, isThere, isThere * (0xffffffffu / 3)}})
         if (const std::string expected = outsideRange(r.value, r.first, r.last); !expected.empty())
             return wrongBake(r.name, std::to_string(r.value), expected);
     if (isThere && l.caches > 0xffffffu)
