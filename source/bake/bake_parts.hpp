@@ -11,7 +11,6 @@ namespace rebound::detail {
 struct BakeExperiments {
     float gridShift = 0.0f; // of the grid along each axis [spacings]
     MapRemedies map;
-    bool rooms = true; // large cells in free space
 };
 
 Result<std::optional<Bake>> bakeScene(const BakeGeometry&, const RayCaster&, const BakeSettings&,

@@ -4,7 +4,6 @@
 #include "bake_parts.hpp"
 #include "bake_tasks.hpp"
 #include "light_map.hpp"
-#include "room_cells.hpp"
 
 #include "rebound/bake/packing.hpp"
 #include "rebound/bake/surfels.hpp"
@@ -20,16 +19,13 @@ namespace {
 
 using namespace detail;
 
-// 0: 1 cell; 1, 2, 3: 4, 8, 16.
-uint32_t levelOf(uint32_t size) { return size == 1 ? 0u : size == 4 ? 1u : size == 8 ? 2u : 3u; }
-
 std::vector<uint32_t> packCells(const std::vector<Cell>& cells, const std::vector<uint32_t>& firstReceiver) {
     std::vector<uint32_t> words;
     words.reserve(12 * cells.size());
     for (size_t i = 0; i < cells.size(); ++i) {
         words.insert(words.end(), cells[i].caches.begin(), cells[i].caches.end());
-        words.insert(words.end(), {cells[i].key | levelOf(cells[i].size) << 30, firstReceiver[i],
-                                   firstReceiver[i + 1] - firstReceiver[i], 0u});
+        words.insert(words.end(),
+                     {cells[i].key, firstReceiver[i], firstReceiver[i + 1] - firstReceiver[i], 0u});
     }
     return words;
 }
@@ -100,13 +96,12 @@ Result<std::optional<Bake>> bakeValid(const BakeGeometry& geometry, const RayCas
     report("grid", 0.0);
     const Surroundings around(geometry, rays);
     const ReceivingSides receiving = findReceivingSides(geometry, rays, settings);
-    auto grid = chooseCells(geometry, receiving, settings, experiments.gridShift, experiments.rooms);
+    auto grid = chooseCells(geometry, receiving, settings, experiments.gridShift);
     if (!grid) return grid.error();
     report("caches", 0.0);
     const std::vector<CachePlace> places = placeCaches(around, *grid, settings.threads);
     const CellTable table =
-        tabulateCells(*grid, places, placeInLostCells(around, *grid, places, receiving.sides),
-                      cornersInSight(around, *grid, places, settings.threads));
+        tabulateCells(*grid, places, placeInLostCells(around, *grid, places, receiving.sides));
     if (table.cells.empty())
         return Error{ErrorCode::invalidData,
                      "no place near the geometry's surfaces is outside of it; with a finer grid "

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
 namespace rebound::detail {
 
@@ -53,30 +52,14 @@ std::vector<Cell> cellsWithCaches(const GridCells& grid, const std::vector<uint3
     return cells;
 }
 
-void addRoomCells(const GridCells& grid, const std::vector<uint32_t>& numberOf,
-                  const std::vector<uint8_t>& inSight, std::vector<Cell>& cells) {
-    for (size_t i = 0; i < inSight.size(); ++i) {
-        if (inSight[i] == 0) continue;
-        Cell room;
-        room.key = grid.rooms[i];
-        room.size = grid.roomSize;
-        const std::array<size_t, 8> corners = grid.cornersOf(room.key, room.size);
-        for (size_t c = 0; c < 8; ++c)
-            room.caches[c] = (inSight[i] >> c & 1) != 0 ? numberOf[corners[c]] : noCache;
-        cells.push_back(room);
-    }
-}
-
 class BrickTable {
 public:
-    BrickTable(CellTable& filled, size_t surfaceCells)
-        : table(filled), size(filled.bricks), rooms(std::span(filled.cells).subspan(surfaceCells)),
-          firstRoom(uint32_t(surfaceCells)) {}
+    explicit BrickTable(CellTable& filled) : table(filled), size(filled.bricks) {}
 
     void fill() {
         table.brickOf.assign(size_t(size.x) * size.y * size.z, unknown);
         std::vector<glm::uvec3> placeOf;
-        for (uint32_t i = 0; i < firstRoom; ++i) {
+        for (uint32_t i = 0; i < table.cells.size(); ++i) {
             const glm::uvec3 place = latticePlace(table.cells[i].key) / 4u;
             uint32_t& brick = table.brickOf[indexOf(place)];
             if (brick == unknown) {
@@ -86,9 +69,8 @@ public:
             }
             cellsOf[brick].push_back(i);
         }
+        table.filledBricks = uint32_t(placeOf.size());
         for (const glm::uvec3 place : placeOf) fillCells(place);
-        fillRooms(placeOf);
-        table.filledBricks = uint32_t(table.cellOf.size() / 64);
         fillEmptyBricks(placeOf);
     }
 
@@ -97,40 +79,7 @@ private:
         return brick.x + size_t(size.x) * (brick.y + size_t(size.y) * brick.z);
     }
 
-    // The room around a cell; unknown: there is none.
-    uint32_t roomAround(glm::uvec3 cell) const {
-        if (rooms.empty()) return unknown;
-        const uint32_t side = rooms.front().size;
-        const LatticeKey key = latticeKey(cell / side * side);
-        const auto found = std::lower_bound(rooms.begin(), rooms.end(), key,
-                                            [](const Cell& room, LatticeKey k) { return room.key < k; });
-        if (found == rooms.end() || found->key != key) return unknown;
-        return firstRoom + uint32_t(found - rooms.begin());
-    }
-
-    // Bricks without lit cells have the room around; one entry serves all of a room.
-    void fillRooms(std::vector<glm::uvec3>& placeOf) {
-        for (uint32_t r = 0; r < rooms.size(); ++r) {
-            const glm::uvec3 first = latticePlace(rooms[r].key) / 4u;
-            const glm::uvec3 end = glm::min(first + rooms[r].size / 4u, size);
-            uint32_t entry = unknown;
-            for (uint32_t z = first.z; z < end.z; ++z)
-                for (uint32_t y = first.y; y < end.y; ++y)
-                    for (uint32_t x = first.x; x < end.x; ++x) {
-                        uint32_t& brick = table.brickOf[indexOf({x, y, z})];
-                        if (brick != unknown) continue;
-                        if (entry == unknown) {
-                            entry = uint32_t(table.cellOf.size() / 64);
-                            table.cellOf.insert(table.cellOf.end(), 64, firstRoom + r);
-                        }
-                        brick = entry;
-                        placeOf.push_back({x, y, z});
-                    }
-        }
-    }
-
-    // For each cell of a brick the nearest lit one of it and its neighbours, of equally near ones the first; where none is
-    // near, the room around.
+    // For each cell of a brick the nearest lit one of it and its neighbours; of equally near ones the first.
     void fillCells(glm::uvec3 brick) {
         std::vector<uint32_t> candidates;
         const glm::uvec3 first = glm::max(brick, 1u) - 1u, last = glm::min(brick + 1u, size - 1u);
@@ -152,9 +101,7 @@ private:
                     nearest = cell;
                 }
             }
-            constexpr int near = 3; // a cell beside, or across a corner
-            const uint32_t room = least > near ? roomAround(glm::uvec3(place)) : unknown;
-            table.cellOf.push_back(room == unknown ? nearest : room);
+            table.cellOf.push_back(nearest);
         }
     }
 
@@ -174,22 +121,18 @@ private:
 
     CellTable& table;
     glm::uvec3 size;
-    std::span<const Cell> rooms;
-    const uint32_t firstRoom;                   // number of the first
     std::vector<std::vector<uint32_t>> cellsOf; // of filled bricks
 };
 
 } // namespace
 
 CellTable tabulateCells(const GridCells& grid, const std::vector<CachePlace>& places,
-                        const std::vector<LostCell>& lost, const std::vector<uint8_t>& inSight) {
+                        const std::vector<LostCell>& lost) {
     CellTable table;
     const std::vector<uint32_t> numberOf = numberCaches(grid, places, table.caches);
     table.cells = cellsWithCaches(grid, numberOf, lost, table.caches);
-    const size_t surfaceCells = table.cells.size();
-    if (surfaceCells > 0) addRoomCells(grid, numberOf, inSight, table.cells);
     table.bricks = (grid.lattice.cells + 3u) / 4u;
-    BrickTable(table, surfaceCells).fill();
+    BrickTable(table).fill();
     return table;
 }
 

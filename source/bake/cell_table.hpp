@@ -16,20 +16,17 @@ inline constexpr uint32_t noCache = 0xffffffffu;
 struct Cell {
     LatticeKey key = 0;
     std::array<uint32_t, 8> caches{}; // at its corners, x fastest; noCache: none
-    uint32_t size = 1;                // 1, or of a room [cells]
 };
 
 struct CellTable {
     std::vector<glm::vec3> caches; // positions of those that take part [m]
-    std::vector<Cell> cells; // those that have one: of surfaces, ascending keys, then rooms, ascending keys
+    std::vector<Cell> cells;       // those that have one, ascending keys
     glm::uvec3 bricks{1};
     uint32_t filledBricks = 0;
     std::vector<uint32_t> brickOf; // section bricks of a bake
     std::vector<uint32_t> cellOf;  // section brickCells of a bake
 };
 
-// inSight: cornersInSight() of the rooms.
-CellTable tabulateCells(const GridCells&, const std::vector<CachePlace>&, const std::vector<LostCell>& = {},
-                        const std::vector<uint8_t>& inSight = {});
+CellTable tabulateCells(const GridCells&, const std::vector<CachePlace>&, const std::vector<LostCell>& = {});
 
 } // namespace rebound::detail

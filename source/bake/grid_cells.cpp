@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "grid_cells.hpp"
 
-#include "room_cells.hpp"
-
 #include "parallel.hpp"
 #include "sequence.hpp"
 #include "surface_samples.hpp"
@@ -23,7 +21,6 @@ constexpr uint64_t mostSamples = 1u << 23;
 // About as many corners belong to a piece of surface of one spacing's side; those of the cells before and behind it.
 constexpr double cornersOfSurface = 2.0;
 constexpr double samplesOfCorner = 16.0;
-constexpr uint32_t roomShare = 10; // of so many caches one may be a room's
 constexpr double leastRoom = 0.15; // before a receiver, in some direction at least [spacings]
 constexpr uint32_t raysOfSide = 8;
 
@@ -84,7 +81,8 @@ std::vector<LatticeKey> allCornersOf(const std::vector<LatticeKey>& cells) {
     std::vector<LatticeKey> keys;
     keys.reserve(8 * cells.size());
     for (const LatticeKey cell : cells)
-        for (uint32_t c = 0; c < 8; ++c) keys.push_back(cornerOf(cell, c));
+        for (uint32_t c = 0; c < 8; ++c)
+            keys.push_back(latticeKey(latticePlace(cell) + glm::uvec3(c & 1, c >> 1 & 1, c >> 2)));
     keepUnique(keys);
     return keys;
 }
@@ -226,28 +224,24 @@ ReceivingSides findReceivingSides(const BakeGeometry& geometry, const RayCaster&
     return result;
 }
 
-std::array<size_t, 8> GridCells::cornersOf(LatticeKey cell, uint32_t size) const {
+std::array<size_t, 8> GridCells::cornersOf(LatticeKey cell) const {
     std::array<size_t, 8> numbers{};
     for (uint32_t c = 0; c < 8; ++c) {
-        const LatticeKey corner = cornerOf(cell, c, size);
+        const LatticeKey corner = latticeKey(latticePlace(cell) + glm::uvec3(c & 1, c >> 1 & 1, c >> 2));
         numbers[c] = size_t(std::lower_bound(corners.begin(), corners.end(), corner) - corners.begin());
     }
     return numbers;
 }
 
 Result<GridCells> chooseCells(const BakeGeometry& geometry, const ReceivingSides& surfaces,
-                              const BakeSettings& settings, float shift, bool rooms) {
+                              const BakeSettings& settings, float shift) {
     if (surfaces.sides.empty())
         return Error{
             ErrorCode::invalidData,
             "geometry has no side that anything but back faces can be seen from; at least one was expected"};
     const Box box = boxOf(geometry);
-    const uint32_t forRooms = rooms ? settings.caches / roomShare : 0;
-    Result<GridCells> grid = settings.spacing > 0.0f
-                                 ? cellsOfGivenSpacing(box, surfaces, settings, shift)
-                                 : finestCells(box, surfaces, settings.caches - forRooms, shift);
-    if (grid) addRooms(*grid, std::min<size_t>(forRooms, settings.caches - grid->corners.size()));
-    return grid;
+    if (settings.spacing > 0.0f) return cellsOfGivenSpacing(box, surfaces, settings, shift);
+    return finestCells(box, surfaces, settings.caches, shift);
 }
 
 } // namespace rebound::detail

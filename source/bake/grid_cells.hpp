@@ -20,10 +20,6 @@ using LatticeKey = uint32_t;
 inline constexpr uint32_t maximumLatticePlace = 1023;
 inline LatticeKey latticeKey(glm::uvec3 place) { return place.x | place.y << 10 | place.z << 20; }
 inline glm::uvec3 latticePlace(LatticeKey key) { return {key & 1023u, key >> 10 & 1023u, key >> 20}; }
-// Of a cube of so many cells, x fastest.
-inline LatticeKey cornerOf(LatticeKey cell, uint32_t corner, uint32_t size = 1) {
-    return latticeKey(latticePlace(cell) + size * glm::uvec3(corner & 1, corner >> 1 & 1, corner >> 2));
-}
 
 #include "rebound/math/receiver_offset.h"
 
@@ -54,18 +50,15 @@ ReceivingSides findReceivingSides(const BakeGeometry&, const RayCaster&, const B
 struct GridCells {
     Lattice lattice;
     std::vector<LatticeKey> cells;   // ascending
-    uint32_t roomSize = 0;           // of rooms: 4, 8 or 16 cells; 0: there are none
-    std::vector<LatticeKey> rooms;   // by their lowest cells, ascending
-    std::vector<LatticeKey> corners; // of these cells and rooms, ascending
+    std::vector<LatticeKey> corners; // of these cells, ascending
 
-    // Numbers of the corners of a cell, or of a cube of so many, x fastest.
-    std::array<size_t, 8> cornersOf(LatticeKey cell, uint32_t size = 1) const;
+    // Numbers of a cell's corners, x fastest.
+    std::array<size_t, 8> cornersOf(LatticeKey cell) const;
 };
 
-// With settings.spacing, or else the finest spacing of which settings.caches corners suffice, rooms' among them, which may
-// be a tenth; none with rooms = false. shift moves the grid by a part
+// With settings.spacing, or else the finest spacing of which settings.caches corners suffice. shift moves the grid by a part
 // of its spacing: 0, but in tests of how little it matters. Fails where that spacing asks for more than settings.caches.
 Result<GridCells> chooseCells(const BakeGeometry&, const ReceivingSides&, const BakeSettings&,
-                              float shift = 0.0f, bool rooms = true);
+                              float shift = 0.0f);
 
 } // namespace rebound::detail

@@ -132,8 +132,6 @@ private:
 SamplesOfCells samplesOfCells(const Lattice& lattice, const std::vector<Cell>& cells,
                               const std::vector<SurfaceSide>& samples) {
     SamplesOfCells result(cells.size());
-    // Rooms, which stand behind, hold none.
-    const auto end = std::find_if(cells.begin(), cells.end(), [](const Cell& cell) { return cell.size > 1; });
     for (uint32_t i = 0; i < samples.size(); ++i) {
         const glm::vec3 place =
             lattice.coordinates(samples[i].position + samples[i].normal * (receiverOffset * lattice.spacing));
@@ -142,9 +140,11 @@ SamplesOfCells samplesOfCells(const Lattice& lattice, const std::vector<Cell>& c
             for (int y = std::max(first.y, 0); y <= last.y; ++y)
                 for (int x = std::max(first.x, 0); x <= last.x; ++x) {
                     const LatticeKey key = latticeKey(glm::uvec3(x, y, z));
-                    const auto found = std::lower_bound(
-                        cells.begin(), end, key, [](const Cell& cell, LatticeKey k) { return cell.key < k; });
-                    if (found != end && found->key == key) result[size_t(found - cells.begin())].push_back(i);
+                    const auto found =
+                        std::lower_bound(cells.begin(), cells.end(), key,
+                                         [](const Cell& cell, LatticeKey k) { return cell.key < k; });
+                    if (found != cells.end() && found->key == key)
+                        result[size_t(found - cells.begin())].push_back(i);
                 }
     }
     return result;

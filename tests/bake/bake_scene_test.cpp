@@ -218,53 +218,6 @@ TEST_CASE("what cannot be baked is refused in one sentence") {
     CHECK(refusal(broken, smallSettings()).find("positions[3]") != std::string::npos);
 }
 
-TEST_CASE("what moves through the middle of a hall is lit as its walls light it") {
-    BakeGeometry hall;
-    addBox(hall, {0, 0, 0}, {20, 8, 20}, true);
-    BakeSettings settings = smallSettings();
-    settings.caches = 3000;
-    // One wall glows. Of its light, what reaches a place that faces it, over pi: by a sum over the wall.
-    const auto glow = [](glm::vec3 p, glm::vec3) { return p.x < 0.01f ? 1.0 : 0.0; };
-    const auto truth = [](glm::vec3 place) {
-        double sum = 0.0;
-        constexpr int across = 200, up = 80;
-        for (int j = 0; j < up; ++j)
-            for (int i = 0; i < across; ++i) {
-                const glm::dvec3 way = glm::dvec3(0, (j + 0.5) / 10.0, (i + 0.5) / 10.0) - glm::dvec3(place);
-                const double square = glm::dot(way, way);
-                sum += way.x * way.x / (square * square) * 0.01;
-            }
-        return sum / std::numbers::pi;
-    };
-    struct Walk {
-        double error = 0.0,
-               step = 0.0; // over the mean light: root mean square, and largest that is not the truth's
-    };
-    const auto walk = [&](bool rooms) {
-        const Bake bake = bakeOf(hall, settings, 0.0f, {}, rooms);
-        const BakedLight light(bake, glow);
-        Walk result;
-        double mean = 0.0, before = 0.0;
-        constexpr int steps = 240;
-        for (int i = 0; i < steps; ++i) {
-            const glm::vec3 place(4.0f + 0.05f * float(i), 4.1f, 9.3f);
-            const double right = truth(place), off = light.atReceiver(place, {-1, 0, 0}) - right;
-            mean += right / steps;
-            result.error += off * off / steps;
-            if (i > 0) result.step = std::max(result.step, std::abs(off - before));
-            before = off;
-        }
-        return Walk{std::sqrt(result.error) / mean, result.step / mean};
-    };
-    const Walk with = walk(true), without = walk(false);
-    MESSAGE("error " << with.error << ", largest step " << with.step << "; without rooms " << without.error
-                     << ", " << without.step);
-    CHECK(with.error < 0.06);
-    CHECK(with.step < 0.1);
-    CHECK(without.error > 3.0 * with.error);
-    CHECK(without.step > 3.0 * with.step);
-}
-
 TEST_CASE("progress goes from nothing to all") {
     BakeSettings settings = smallSettings();
     double last = 0.0;

@@ -68,9 +68,7 @@ public:
         const glm::vec3 at = (position - layout.origin) / layout.spacing;
         const size_t cell = cellAt(at + normal / 32.0f);
         const auto cells = section(rebound::BakeSection::cells);
-        constexpr std::array<float, 4> sizes{1.0f, 4.0f, 8.0f, 16.0f};
-        const uint32_t packed = cells[12 * cell + 8];
-        const glm::vec3 local = (at - glm::vec3(unpackPlace(packed))) / sizes[packed >> 30];
+        const glm::vec3 local = at - glm::vec3(unpackPlace(cells[12 * cell + 8]));
         const std::array<double, 8> seen = visibility(cell, local, normal);
         const glm::vec3 share = glm::clamp(local, 0.0f, 1.0f);
         double sum = 0.0, total = 0.0;
@@ -81,7 +79,7 @@ public:
             for (int axis = 0; axis < 3; ++axis)
                 weight *= double((corner >> axis & 1) ? share[axis] : 1.0f - share[axis]) + 1e-5;
             const double height = double(glm::dot(normal, place(cache) - position) / layout.spacing);
-            if (packed >> 30 == 0) weight *= std::clamp(height / 0.25, 1e-6, 1.0); // of surfaces
+            weight *= std::clamp(height / 0.25, 1e-6, 1.0);
             sum += weight * irradiance(atCache(cache), normal);
             total += weight;
         }
@@ -137,7 +135,7 @@ public:
     }
 
     static glm::uvec3 unpackPlace(uint32_t packed) {
-        return {packed & 1023u, packed >> 10 & 1023u, packed >> 20 & 1023u};
+        return {packed & 1023u, packed >> 10 & 1023u, packed >> 20};
     }
 
 private:

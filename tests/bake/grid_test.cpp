@@ -3,7 +3,6 @@
 #include "cell_table.hpp"
 #include "grid_cells.hpp"
 #include "receivers.hpp"
-#include "room_cells.hpp"
 
 #include "rebound/embree/ray_caster.hpp"
 #include "rooms.hpp"
@@ -157,19 +156,15 @@ TEST_CASE("the back of a curtain does not make caches invalid") {
     CHECK(behind > 10);
 }
 
-TEST_CASE("everywhere a cell is in effect: its own where that is lit, else one near it or a room") {
+TEST_CASE("everywhere a cell is in effect: its own where that is lit, else one near it") {
     const Scene scene(hallWithPillar());
     BakeSettings settings;
     settings.caches = 3000;
     const GridCells grid = scene.cells(settings);
-    const std::vector<CachePlace> places = scene.places(grid);
-    const CellTable table =
-        tabulateCells(grid, places, {}, cornersInSight({scene.geometry, scene.rays}, grid, places, 2));
+    const CellTable table = tabulateCells(grid, scene.places(grid));
     REQUIRE(table.cells.size() > 100);
-    REQUIRE(table.cells.back().size == grid.roomSize); // there are rooms
     std::set<LatticeKey> lit;
-    for (const Cell& cell : table.cells)
-        if (cell.size == 1) lit.insert(cell.key);
+    for (const Cell& cell : table.cells) lit.insert(cell.key);
     const auto cellAt = [&](glm::uvec3 place) {
         const glm::uvec3 brick = place / 4u, within = place % 4u;
         const uint32_t filled =

@@ -36,11 +36,11 @@ inline rebound::BakeGeometry twoRooms(float wall) {
 
 inline rebound::Bake bakeOf(const rebound::BakeGeometry& geometry,
                             const rebound::BakeSettings& settings = smallSettings(), float shift = 0.0f,
-                            const rebound::detail::MapRemedies& remedies = {}, bool rooms = true) {
+                            const rebound::detail::MapRemedies& remedies = {}) {
     const auto caster = rebound::EmbreeRayCaster::build(geometry);
     REQUIRE_MESSAGE(caster, caster.error().message);
     rebound::LocalBakeCrew alone;
-    auto bake = rebound::detail::bakeScene(geometry, *caster, settings, {shift, remedies, rooms}, alone);
+    auto bake = rebound::detail::bakeScene(geometry, *caster, settings, {shift, remedies}, alone);
     REQUIRE_MESSAGE(bake, bake.error().message);
     return **bake;
 }

@@ -165,10 +165,7 @@ inline glm::dvec3 CompositionModel::through(glm::dvec3 position, glm::dvec3 norm
     const uint32_t cellNumber =
         number(BakeSection::brickCells, 64 * filled + (within.z * 4 + within.y) * 4 + within.x);
     const uint32_t* cell = &bake.section(BakeSection::cells)[12 * cellNumber];
-    constexpr double sizes[] = {1.0, 4.0, 8.0, 16.0};
-    const glm::dvec3 local =
-        (at - glm::dvec3(cell[8] & 1023u, cell[8] >> 10 & 1023u, cell[8] >> 20 & 1023u)) /
-        sizes[cell[8] >> 30];
+    const glm::dvec3 local = at - glm::dvec3(cell[8] & 1023u, cell[8] >> 10 & 1023u, cell[8] >> 20 & 1023u);
     const glm::dvec3 f = glm::clamp(local, 1e-5, 1.0 - 1e-5);
     const auto seen = visibility(cell, local, normal);
     const auto y = harmonics(direction);
@@ -182,8 +179,7 @@ inline glm::dvec3 CompositionModel::through(glm::dvec3 position, glm::dvec3 norm
                                floatOf(number(BakeSection::places, 4 * cell[k] + 1)),
                                floatOf(number(BakeSection::places, 4 * cell[k] + 2)));
         const double trilinear = (k & 1 ? f.x : 1 - f.x) * (k & 2 ? f.y : 1 - f.y) * (k & 4 ? f.z : 1 - f.z);
-        const double height = cell[8] >> 30 ? 0.0 : glm::dot(normal, place - position) / double(l.spacing);
-        const double t = std::clamp(height / 0.25, 5e-4, 1.0);
+        const double t = std::clamp(glm::dot(normal, place - position) / double(l.spacing) / 0.25, 5e-4, 1.0);
         total += weights[k] = trilinear * seen[k] * t * t * (3.0 - 2.0 * t);
     }
     glm::dvec3 sum(0.0);

@@ -51,7 +51,6 @@ struct MadeReceiver {
 struct MadeCell {
     std::array<uint32_t, 8> caches{};
     glm::uvec3 place{0};
-    uint32_t level = 0; // of its size: 1, 4, 8 or 16 cells
     std::vector<MadeReceiver> receivers;
 };
 
@@ -215,7 +214,7 @@ inline Bake MadeBake::pack() const {
         const MadeCell& cell = cells[c];
         uint32_t* record = &section(BakeSection::cells)[12 * c];
         std::copy(cell.caches.begin(), cell.caches.end(), record);
-        record[8] = cell.place.x | cell.place.y << 10 | cell.place.z << 20 | cell.level << 30;
+        record[8] = cell.place.x | cell.place.y << 10 | cell.place.z << 20;
         record[9] = receiver;
         record[10] = uint32_t(cell.receivers.size());
         for (const MadeReceiver& r : cell.receivers) {

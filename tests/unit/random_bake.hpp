@@ -44,7 +44,6 @@ inline void scatterGrid(MadeBake& made, Numbers32& random) {
         for (uint32_t k = 0; k < 8; ++k)
             if (random.below(6) == 0) cell.caches[k] = 0xffffffffu;
         if (random.below(40) == 0) cell.caches.fill(0xffffffffu);
-        if (random.below(8) == 0) cell.level = 1 + random.below(3); // a room: its caches stand elsewhere then
         for (uint32_t r = random.below(5); r > 0; --r) {
             MadeReceiver receiver{random.vector(-0.9f, 1.9f), random.direction(), {}};
             for (int& share : receiver.shares) share = random.below(2) == 0 ? 255 : int(random.below(256));

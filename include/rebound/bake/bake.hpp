@@ -47,7 +47,7 @@ struct BakeLayout {
     float spacing = 1.0f;      // [m]
     glm::uvec3 bricks{1};      // of the grid, along each axis
     uint32_t filledBricks = 0; // that hold a cell
-    uint32_t cells = 0;        // that caches light, and rooms; at least 1
+    uint32_t cells = 0;        // that caches light; at least 1
     uint32_t receivers = 0;
     std::array<uint32_t, 4> geometry{}; // fingerprintOf() the geometry that was baked
     // The light map: caches on surfaces, one a texel, or one for several.
@@ -106,8 +106,7 @@ enum class BakeSection {
     // one near it.
     brickCells,
     // 12 each, one behind the other: caches at its corners, x fastest (0xffffffff: none); its own place in the grid (10
-    // bits an axis, x low) and above it, in 2 bits, its size: 0: that of the grid's cells; 1, 2, 3: of a room in free space, 4,
-    // 8 or 16 cells along each axis, whose corners are that far apart; its first receiver; how many receivers; 0.
+    // bits an axis, x low); its first receiver; how many receivers; 0.
     cells,
     // 4 each, one behind the other: position within its cell (10 bits an axis, of -1 to 2 cells; x low), normal
     // (octahedral, as above), and which share of the cell's eight caches it sees, 8 bits each, corner 0 lowest (2).

@@ -22,8 +22,7 @@ enum class BakeHierarchy {
 
 struct BakeSettings {
     uint32_t surfels = 32768; // about so many, 1 to 2^20; sides that light can reach
-    uint32_t caches = 10000;  // at most so many, 8 to 2^24: the grid's spacing follows from it; up to a tenth
-                              // stand in free space, for what moves there
+    uint32_t caches = 10000;  // at most so many, 8 to 2^24: the grid's spacing follows from it
     float spacing = 0.0f;     // of the grid [m]; 0: as fine as `caches` allows
     uint32_t lightMap =
         0; // caches on surfaces beside those of the grid, about so many, 0 to 2^20; 0: no light map

@@ -66,18 +66,13 @@ RB_FUNCTION CornerWeights cacheWeights(int cell, Vec3 at, Vec3 position, Vec3 no
                                        Mask here) RB_OF_KERNEL {
     int first = 12 * cell;
     int place = int(cells[first + 8]);
-    int level = (place >> 30) & 3;
-    float perCell = level == 0 ? 1.0f : 1.0f / float(2 << level); // over its size
-    Vec3 local = (at - Vec3(Real(float(place & 1023)), Real(float((place >> 10) & 1023)),
-                            Real(float((place >> 20) & 1023)))) *
-                 perCell;
+    Vec3 local = at - Vec3(Real(float(place & 1023)), Real(float((place >> 10) & 1023)),
+                           Real(float((place >> 20) & 1023)));
     CornerWeights weights = visibilityInCell(cell, local, normal, here);
     Real x = withinCell(local.x);
     Real y = withinCell(local.y);
     Real z = withinCell(local.z);
-    // Nothing in a room is a surface's: caches behind a receiver see no less of what is before it.
-    float perRamp = level == 0 ? grid.origin.w / tangentRamp : 0.0f;
-    Vec3 inRamps = normal * perRamp;
+    Vec3 inRamps = normal * (grid.origin.w / tangentRamp);
     Real own = dot(inRamps, position);
     Real total = Real(0.0f);
     RB_UNROLL

@@ -59,10 +59,8 @@ public:
         for (size_t c = 0; c < bake.layout.cells; ++c)
             for (uint32_t corner = 0; corner < 8; ++corner) {
                 const uint32_t packed = cells[c * 12 + 8], cache = cells[c * 12 + corner];
-                constexpr std::array<uint32_t, 4> sizes{1, 4, 8, 16};
-                const glm::uvec3 lattice =
-                    glm::uvec3(packed & 1023u, (packed >> 10) & 1023u, (packed >> 20) & 1023u) +
-                    sizes[packed >> 30] * glm::uvec3(corner & 1u, (corner >> 1) & 1u, corner >> 2);
+                const glm::uvec3 lattice = glm::uvec3(packed & 1023u, (packed >> 10) & 1023u, packed >> 20) +
+                                           glm::uvec3(corner & 1u, (corner >> 1) & 1u, corner >> 2);
                 const glm::vec3 usual = bake.layout.origin + bake.layout.spacing * glm::vec3(lattice);
                 if (cache >= bake.layout.caches) {
                     drawBall(image, usual, {0.9f, 0.1f, 0.1f});
