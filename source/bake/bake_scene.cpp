@@ -49,14 +49,6 @@ Bake assemble(const BakeLayout& layout, Sections&& parts) {
     return bake;
 }
 
-std::vector<uint32_t> emittersOf(const SurfelTree& tree, const std::vector<Surfel>& surfels) {
-    std::vector<uint32_t> leaves;
-    for (uint32_t leaf = 0; leaf < tree.order.size(); ++leaf)
-        if (glm::any(glm::greaterThan(surfels[tree.order[leaf]].emission, glm::vec3(0.0f))))
-            leaves.push_back(leaf);
-    return leaves;
-}
-
 // Caches of the map behind those of the grid.
 void append(const LightMap& map, std::vector<glm::vec3>& caches, std::vector<glm::vec3>& normals) {
     for (const SurfacePlace& place : map.caches) {
@@ -122,8 +114,7 @@ Result<std::optional<Bake>> bakeValid(const BakeGeometry& geometry, const RayCas
     }
     std::vector<glm::vec3> caches = table.caches, normals;
     append(map, caches, normals);
-    const LinkTask linkTask(around, caches, normals, *tree, emittersOf(*tree, *surfels), settings,
-                            layout.geometry);
+    const LinkTask linkTask(around, caches, normals, *tree, settings, layout.geometry);
     auto linkParts = done(linkTask.task());
     if (!linkParts) return linkParts.error();
     if (linkParts->empty()) return std::optional<Bake>();

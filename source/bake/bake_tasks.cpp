@@ -93,10 +93,9 @@ ReceiverSections ReceiverTask::merge(BakeParts&& parts) const {
 
 LinkTask::LinkTask(const Surroundings& surroundings, std::span<const glm::vec3> cachePlaces,
                    std::span<const glm::vec3> cacheNormals, const SurfelTree& surfelTree,
-                   std::vector<uint32_t> emittingLeaves, const BakeSettings& bakeSettings,
-                   const std::array<uint32_t, 4>& fingerprint)
+                   const BakeSettings& bakeSettings, const std::array<uint32_t, 4>& fingerprint)
     : around(surroundings), caches(cachePlaces), normals(cacheNormals), tree(surfelTree),
-      emitters(std::move(emittingLeaves)), settings(bakeSettings), geometry(fingerprint),
+      settings(bakeSettings), geometry(fingerprint),
       lookup(std::span(surfelTree.nodes).first(surfelTree.order.size())), ranges(cachePlaces.size()) {}
 
 BakeTask LinkTask::task() const {
@@ -105,7 +104,6 @@ BakeTask LinkTask::task() const {
     addCounted(key, caches);
     addCounted(key, normals);
     addCounted(key, std::span(tree.nodes));
-    addCounted(key, std::span(emitters));
     for (const uint32_t setting :
          {settings.links, settings.bands, settings.raysPerLink, uint32_t(settings.linkForm), settings.seed})
         key.add(setting);
@@ -114,8 +112,8 @@ BakeTask LinkTask::task() const {
 
 // Their stretches of sections linkNodes, linkFactors and linkShapes.
 std::vector<uint32_t> LinkTask::run(uint32_t part) const {
-    LinkSections links = linkCaches(around, caches, normals, ranges.first(part), ranges.last(part), tree,
-                                    lookup, emitters, settings);
+    LinkSections links =
+        linkCaches(around, caches, normals, ranges.first(part), ranges.last(part), tree, lookup, settings);
     std::vector<uint32_t> words = std::move(links.nodes);
     append(words, links.factors);
     append(words, links.shapes);

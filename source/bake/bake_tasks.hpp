@@ -54,10 +54,9 @@ private:
 
 class LinkTask {
 public:
-    // normals: of the last caches, which lie on surfaces. emitters: leaves that emit, ascending.
+    // normals: of the last caches, which lie on surfaces.
     LinkTask(const Surroundings&, std::span<const glm::vec3> caches, std::span<const glm::vec3> normals,
-             const SurfelTree&, std::vector<uint32_t> emitters, const BakeSettings&,
-             const std::array<uint32_t, 4>& geometry);
+             const SurfelTree&, const BakeSettings&, const std::array<uint32_t, 4>& geometry);
     BakeTask task() const;
     LinkSections merge(BakeParts&&) const;
 
@@ -67,7 +66,6 @@ private:
     const Surroundings& around;
     const std::span<const glm::vec3> caches, normals;
     const SurfelTree& tree;
-    const std::vector<uint32_t> emitters;
     const BakeSettings& settings;
     const std::array<uint32_t, 4> geometry;
     const SurfelLookup lookup;

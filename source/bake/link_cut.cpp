@@ -32,12 +32,18 @@ glm::mat3 rotationOf(uint32_t index) {
                                                r1 * std::cos(first), r2 * std::sin(second))));
 }
 
+std::vector<uint32_t> emittersOf(const SurfelTree& tree) {
+    std::vector<uint32_t> leaves;
+    for (uint32_t leaf = 0; leaf < tree.order.size(); ++leaf)
+        if (tree.nodes[leaf].emission > 0.0f) leaves.push_back(leaf);
+    return leaves;
+}
+
 } // namespace
 
 LinkCutter::LinkCutter(const Surroundings& surroundings, const SurfelTree& surfelTree,
-                       const SurfelLookup& surfelLookup, std::span<const uint32_t> leavesThatEmit,
-                       const BakeSettings& settings)
-    : around(surroundings), tree(surfelTree), lookup(surfelLookup), emitters(leavesThatEmit),
+                       const SurfelLookup& surfelLookup, const BakeSettings& settings)
+    : around(surroundings), tree(surfelTree), lookup(surfelLookup), emitters(emittersOf(surfelTree)),
       links(settings.links), evenDirections(sphereDirections(settings.links * settings.raysPerLink)) {}
 
 const std::vector<SeenSender>& LinkCutter::cut(glm::vec3 cache, glm::vec3 normal, uint32_t index) {

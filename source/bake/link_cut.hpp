@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace rebound::detail {
@@ -29,9 +28,7 @@ struct SeenSender {
 // be all the light of a scene, get rays of their own.
 class LinkCutter {
 public:
-    // emitters: leaves that emit.
-    LinkCutter(const Surroundings&, const SurfelTree&, const SurfelLookup&,
-               std::span<const uint32_t> emitters, const BakeSettings&);
+    LinkCutter(const Surroundings&, const SurfelTree&, const SurfelLookup&, const BakeSettings&);
 
     // At most settings.links, by ascending node. index: of the cache, which turns its rays.
     // normal: of the surface that it lies on, before which alone it sees anything; 0: it sees all around.
@@ -63,7 +60,7 @@ private:
     const Surroundings& around;
     const SurfelTree& tree;
     const SurfelLookup& lookup;
-    const std::span<const uint32_t> emitters;
+    const std::vector<uint32_t> emitters; // leaves, ascending
     const uint32_t links;
     const std::vector<glm::vec3> evenDirections;
 

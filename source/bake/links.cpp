@@ -39,8 +39,7 @@ uint32_t shapeWord(const std::array<float, 16>& c, const BakeLayout& layout, uin
 
 LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> caches,
                         std::span<const glm::vec3> normals, uint32_t first, uint32_t last,
-                        const SurfelTree& tree, const SurfelLookup& lookup,
-                        std::span<const uint32_t> emitters, const BakeSettings& settings) {
+                        const SurfelTree& tree, const SurfelLookup& lookup, const BakeSettings& settings) {
     BakeLayout layout; // of these caches alone
     setTree(layout, tree);
     layout.caches = last - first;
@@ -52,7 +51,7 @@ LinkSections linkCaches(const Surroundings& around, std::span<const glm::vec3> c
     sections.factors.assign(sizeOf(layout, BakeSection::linkFactors), 0);
     sections.shapes.assign(sizeOf(layout, BakeSection::linkShapes), 0);
 
-    LinkCutter cutter(around, tree, lookup, emitters, settings);
+    LinkCutter cutter(around, tree, lookup, settings);
     const size_t words = layout.shapeWords();
     for (uint32_t cache = first; cache < last; ++cache) {
         const size_t onSurfaces = caches.size() - normals.size();

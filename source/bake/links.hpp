@@ -23,9 +23,9 @@ struct LinkSections {
 
 // Of caches first to last - 1 alone: their stretches of these sections. first: a multiple of 64; last: too, or the number
 // of caches. normals: of the last of all caches, which lie on surfaces, as many as there are. lookup: of the tree's
-// leaves. emitters: leaves of the tree that emit, ascending.
+// leaves.
 LinkSections linkCaches(const Surroundings&, std::span<const glm::vec3> caches,
                         std::span<const glm::vec3> normals, uint32_t first, uint32_t last, const SurfelTree&,
-                        const SurfelLookup&, std::span<const uint32_t> emitters, const BakeSettings&);
+                        const SurfelLookup&, const BakeSettings&);
 
 } // namespace rebound::detail

@@ -42,10 +42,7 @@ struct Senders {
                                 glm::vec3 normal = glm::vec3(0.0f)) const {
         const Surroundings around(geometry, rays);
         const SurfelLookup lookup(std::span(tree.nodes).first(surfels.size()));
-        std::vector<uint32_t> emitters;
-        for (uint32_t leaf = 0; leaf < surfels.size(); ++leaf)
-            if (surfels[tree.order[leaf]].emission.x > 0.0f) emitters.push_back(leaf);
-        LinkCutter cutter(around, tree, lookup, emitters, settings);
+        LinkCutter cutter(around, tree, lookup, settings);
         for (const glm::vec3 other : before) cutter.cut(other, glm::vec3(0.0f), 1);
         return cutter.cut(place, normal, index);
     }
@@ -235,7 +232,7 @@ TEST_CASE("light that surfels differ in arrives as a sum over many more rays has
     finest.raysPerLink = 16;
     const Surroundings around(box.geometry, box.rays);
     const SurfelLookup lookup(std::span(box.tree.nodes).first(box.surfels.size()));
-    LinkCutter every(around, box.tree, lookup, {}, finest);
+    LinkCutter every(around, box.tree, lookup, finest);
     std::vector<double> flux(box.tree.nodes.size());
     for (size_t i = 0; i < flux.size(); ++i) {
         const SurfelNode& node = box.tree.nodes[i];
