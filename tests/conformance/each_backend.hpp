@@ -3,10 +3,10 @@
 #pragma once
 
 #include "lab/runner/runner.hpp"
+#include "lab/runner/shared_bytes.hpp"
 
 #include <doctest/doctest.h>
 
-#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,12 +21,7 @@ std::span<const Shader* const> testShaders();
 
 namespace rebound::test {
 
-template <class T>
-SharedBytes sharedBytes(const std::vector<T>& values) {
-    std::vector<std::byte> bytes(values.size() * sizeof(T));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    return std::make_shared<const std::vector<std::byte>>(std::move(bytes));
-}
+using runner::sharedBytes;
 
 inline std::vector<float> read(runner::PreparedPlan& plan, const std::string& name) {
     const auto image = plan.read(name);

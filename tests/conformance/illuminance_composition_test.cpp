@@ -82,9 +82,7 @@ IlluminanceCompositionFrame<lab::Image> frameOf(Numbers32& random, const Bake& b
     for (float& l : frame.lit.data) l = random.within(0.0f, 2.0f);
     frame.normal.data[4] = std::numeric_limits<float>::quiet_NaN();
     frame.depth.data[5] = std::numeric_limits<float>::infinity();
-    for (size_t s = 0; s < frame.sections.size(); ++s)
-        frame.sections[s] =
-            sharedBytes(std::vector<uint32_t>(bake.sections[s].begin(), bake.sections[s].end()));
+    for (size_t s = 0; s < frame.sections.size(); ++s) frame.sections[s] = sharedBytes(bake.sections[s]);
     frame.surfelLight = sharedBytes(lightOf(random, v.surfels));
     frame.surfelEmission = sharedBytes(lightOf(random, v.surfels));
     frame.exponent = lab::Image(extent, 1);

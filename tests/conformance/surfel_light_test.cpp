@@ -22,11 +22,6 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-SharedBytes bytesOfSection(const Bake& bake, BakeSection s) {
-    const auto words = bake.section(s);
-    return sharedBytes(std::vector<uint32_t>(words.begin(), words.end()));
-}
-
 // Sources of every kind, half of them with up to three views of maps in which depth is one of a few numbers.
 SurfelLightFrame<lab::Image> randomFrame(Numbers32& random, const Bake& bake,
                                          const SurfelLightSettings& settings) {
@@ -57,7 +52,7 @@ SurfelLightFrame<lab::Image> randomFrame(Numbers32& random, const Bake& bake,
         frame.shadowMaps[i] = lab::Image(settings.shadowMaps[i], 1);
         for (float& d : frame.shadowMaps[i].data) d = 0.2f * float(random.below(6));
     }
-    frame.surfels = bytesOfSection(bake, BakeSection::surfels);
+    frame.surfels = sharedBytes(bake.section(BakeSection::surfels));
     frame.lightSources = sharedBytes(sources);
     frame.shadowViews = sharedBytes(views);
     return frame;
@@ -194,7 +189,7 @@ TEST_CASE("surfels receive what the lab's rays say, of a sun, a spot and a point
     for (int face = 0; face < 6; ++face)
         addView(glm::perspectiveRH_ZO(0.5f * pi, 1.0f, 0.05f, 20.0f) * lookFrom(lamp.position, axes[face]),
                 {2, {side * face, 0}, {side, side}});
-    frame.surfels = bytesOfSection(*bake, BakeSection::surfels);
+    frame.surfels = sharedBytes(bake->section(BakeSection::surfels));
     frame.lightSources = sharedBytes(sources);
     frame.shadowViews = sharedBytes(views);
     const auto inputs = surfelLightInputs(settings, frame);

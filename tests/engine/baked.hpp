@@ -7,6 +7,7 @@
 
 #include "lab/baking/bake_of_scene.hpp"
 #include "lab/engine/moment.hpp"
+#include "lab/runner/shared_bytes.hpp"
 #include "rebound/techniques/illuminance_composition.hpp"
 
 #include <memory>
@@ -40,12 +41,6 @@ inline Bake bakeOfHall(const lab::Scene& scene) {
     return require(lab::bakeOfScene(shared, settings));
 }
 
-template <class T>
-SharedBytes bytesOfBuffer(std::span<const T> numbers) {
-    const auto bytes = std::as_bytes(numbers);
-    return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
-}
-
 // What the engine has drawn in a frame, and what Rebound has made of it.
 struct BakedFrame {
     Camera camera;
@@ -58,7 +53,7 @@ class BakedLightOnCpu {
 public:
     BakedLightOnCpu(const Bake& bake, const SurfelLightSettings& l, const IlluminanceCompositionSettings& s)
         : lights(l), settings(s) {
-        for (size_t i = 0; i < sections.size(); ++i) sections[i] = bytesOfBuffer(bake.sections[i]);
+        for (size_t i = 0; i < sections.size(); ++i) sections[i] = runner::sharedBytes(bake.sections[i]);
         plan = require(planSurfelLight(lights));
         require(append(plan, require(planIlluminanceComposition(settings)), joining));
         runner::BackendChoice choice;
@@ -73,8 +68,8 @@ public:
         sources.sources.resize(size_t(lights.maximumSources));
         surfels.shadowMaps[0] = frame.shadowMap;
         surfels.surfels = sections[size_t(BakeSection::surfels)];
-        surfels.lightSources = bytesOfBuffer(std::span<const LightSource>(sources.sources));
-        surfels.shadowViews = bytesOfBuffer(std::span<const ShadowView>(&sources.view, 1));
+        surfels.lightSources = runner::sharedBytes(sources.sources);
+        surfels.shadowViews = runner::sharedBytes(std::span(&sources.view, 1));
         IlluminanceCompositionFrame<lab::Image> composition;
         composition.camera = frame.camera;
         composition.depth = frame.depth;

@@ -5,6 +5,7 @@
 #include "lab/baking/map_places.hpp"
 #include "lab/baking/scene_geometry.hpp"
 #include "lab/baking/surfel_light.hpp"
+#include "lab/runner/shared_bytes.hpp"
 #include "lab/scenes/camera_matrices.hpp"
 #include "lab/techniques/bake_settings.hpp"
 #include "lab/techniques/draft_values.hpp"
@@ -143,10 +144,6 @@ Result<std::shared_ptr<const lab::EmbreeScene>> raysOf(std::shared_ptr<const lab
     return std::shared_ptr<const lab::EmbreeScene>(both, &both->rays);
 }
 
-SharedBytes sharedBytes(std::span<const std::byte> bytes) {
-    return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
-}
-
 // What stays the same from frame to frame.
 struct BakedScene {
     Bake bake;
@@ -188,11 +185,11 @@ Result<Configured> bakedIn(const Choice& choice, const Surroundings& surrounding
     const auto baked = std::make_shared<BakedScene>();
     baked->bake = obtained->bake;
     for (size_t i = 0; i < baked->sections.size(); ++i)
-        baked->sections[i] = sharedBytes(std::as_bytes(obtained->bake.sections[i]));
+        baked->sections[i] = runner::sharedBytes(obtained->bake.sections[i]);
     lab::SurfelLightOptions light;
     light.threads = surroundings.threads;
     std::vector<float> planes = lab::directLightOnSurfels(obtained->bake, **rays, light);
-    baked->surfelLight = sharedBytes(std::as_bytes(std::span(planes)));
+    baked->surfelLight = runner::sharedBytes(planes);
     configured->bake =
         std::make_shared<const lab::LitBake>(lab::LitBake{obtained->bake, std::move(planes), emission});
 
