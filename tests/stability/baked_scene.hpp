@@ -2,38 +2,25 @@
 // A scene that is baked once and lit anew each frame, as an engine runs it.
 #pragma once
 
+#include "../accuracy/take.hpp"
+
 #include "lab/baking/bake_of_scene.hpp"
 #include "lab/baking/surfel_light.hpp"
 #include "lab/rays/frame.hpp"
 #include "lab/runner/runner.hpp"
+#include "lab/runner/shared_bytes.hpp"
 #include "lab/scenes/camera_matrices.hpp"
 #include "rebound/techniques/illuminance_composition.hpp"
 
 #include <array>
 #include <functional>
 #include <memory>
-#include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace rebound::stability {
 
-// The value; throws what went wrong, for doctest to print.
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
-inline void take(Result<> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-}
-
-template <class Number>
-SharedBytes bytesOf(const std::vector<Number>& numbers) {
-    const auto bytes = std::as_bytes(std::span(numbers));
-    return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
-}
+using accuracy::take;
 
 using Sections = std::array<std::vector<uint32_t>, bakeSectionCount>;
 
@@ -51,7 +38,7 @@ public:
     // Watched from its first camera.
     BakedScene(lab::Scene described, const Options& chosen)
         : scene(std::make_shared<lab::Scene>(std::move(described))), options(chosen) {
-        const auto rays = std::make_shared<const lab::EmbreeScene>(take(lab::EmbreeScene::build(*scene)));
+        rays = std::make_shared<const lab::EmbreeScene>(take(lab::EmbreeScene::build(*scene)));
         bake = take(lab::bakeOfScene(rays, options.bake));
         alter([](Sections&) {});
         backend = take(runner::createBackend({}));
@@ -76,21 +63,20 @@ public:
         for (size_t i = 0; i < sections.size(); ++i)
             sections[i].assign(bake.sections[i].begin(), bake.sections[i].end());
         change(sections);
-        for (size_t i = 0; i < sections.size(); ++i) shared[i] = bytesOf(sections[i]);
+        for (size_t i = 0; i < sections.size(); ++i) shared[i] = runner::sharedBytes(sections[i]);
         plan.reset();
     }
 
     // The next frame under these lights: irradiance over pi.
     lab::Image light(const std::vector<lab::Light>& lights) {
-        scene->lights = lights;
-        const lab::EmbreeScene rays = take(lab::EmbreeScene::build(*scene));
+        scene->lights = lights; // of which the rays know nothing
         IlluminanceCompositionFrame<lab::Image> inputs;
         inputs.camera = lab::cameraMatrices(frame.camera, settings.resolution);
         inputs.depth = frame.depth;
         inputs.normal = frame.normal;
         inputs.sections = shared;
         inputs.surfelLight =
-            bytesOf(lab::directLightOnSurfels(bake, rays, {.places = options.placesOfSurfel}));
+            runner::sharedBytes(lab::directLightOnSurfels(bake, *rays, {.places = options.placesOfSurfel}));
         const auto made = take(illuminanceCompositionInputs(settings, inputs));
         if (!plan)
             plan = take(backend->prepare(take(planIlluminanceComposition(settings)), made,
@@ -103,6 +89,7 @@ public:
 
 private:
     std::shared_ptr<lab::Scene> scene;
+    std::shared_ptr<const lab::EmbreeScene> rays;
     Options options;
     lab::Frame frame;
     Bake bake;
